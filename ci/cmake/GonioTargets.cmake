@@ -1,0 +1,57 @@
+# How a target of gonio is built, named and installed.
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+option(GONIO_BUILD_TESTS "Build tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
+option(GONIO_WERROR "Treat warnings as errors" OFF)
+set(GONIO_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined or thread")
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release)
+endif()
+
+if(GONIO_SANITIZE)
+  add_compile_options(-fsanitize=${GONIO_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${GONIO_SANITIZE})
+endif()
+
+# Warnings are private to gonio's own targets.
+function(gonio_warnings target)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -Wshadow -Wconversion
+                                           $<$<BOOL:${GONIO_WERROR}>:-Werror>)
+endfunction()
+
+# gonio_module(<name> [DEPENDS <target>...] [PRIVATE <target>...])
+# The library gonio::<name> from all sources of the current folder.
+function(gonio_module name)
+  cmake_parse_arguments(arg "" "" "DEPENDS;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  file(GLOB headers CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.hpp)
+  add_library(gonio_${name} ${sources})
+  add_library(gonio::${name} ALIAS gonio_${name})
+  gonio_warnings(gonio_${name})
+  target_compile_features(gonio_${name} PUBLIC cxx_std_20)
+  target_link_libraries(gonio_${name} PUBLIC ${arg_DEPENDS} PRIVATE ${arg_PRIVATE})
+  target_include_directories(gonio_${name} PUBLIC $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+                                                  $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/gonio>)
+  set_target_properties(gonio_${name} PROPERTIES EXPORT_NAME ${name})
+  install(TARGETS gonio_${name} EXPORT gonio)
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gonio/${folder})
+endfunction()
+
+# Data, and the package that find_package(gonio) reads.
+function(gonio_install)
+  install(DIRECTORY standards fixtures DESTINATION ${CMAKE_INSTALL_DATADIR}/gonio)
+  set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/gonio)
+  install(EXPORT gonio NAMESPACE gonio:: DESTINATION ${package_dir} FILE gonio-targets.cmake)
+  configure_package_config_file(ci/cmake/gonio-config.cmake.in gonio-config.cmake
+                                INSTALL_DESTINATION ${package_dir})
+  write_basic_package_version_file(gonio-config-version.cmake COMPATIBILITY SameMinorVersion)
+  install(FILES ${CMAKE_CURRENT_BINARY_DIR}/gonio-config.cmake
+                ${CMAKE_CURRENT_BINARY_DIR}/gonio-config-version.cmake DESTINATION ${package_dir})
+endfunction()

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace gonio {
+
+/// The text of an input file.
+/// @throws InputError  if it is missing, not a regular file, empty, or larger than 16 MiB.
+[[nodiscard]] std::string read_text_file(const std::filesystem::path& path);
+
+/// Writes a file whole or not at all: a temporary file beside it, then a rename.
+/// @throws std::system_error  with the path, if that fails; an older file is then unchanged.
+void write_text_file(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace gonio
