@@ -1,17 +1,41 @@
 # How a test program of gonio is built and found by ctest.
 if(GONIO_BUILD_TESTS)
   find_package(GTest 1.12 REQUIRED)
+  find_package(benchmark 1.7 REQUIRED)
   include(GoogleTest)
+  add_custom_target(unit_tests)
+  add_custom_target(parallel_tests)
 endif()
 
-# gonio_unit_test(<module> [LINK <target>...])
-# One program from all *_test.cpp of the current folder; one ctest entry per test.
+# gonio_unit_test(<module> [PARALLEL] [LINK <target>...])
+# One program from all *_test.cpp of the current folder; one ctest entry per test, label unit.
+# PARALLEL: code that runs threads; label unit_parallel, which `-L unit` and `-L parallel` both find
+# and ThreadSanitizer runs.
 function(gonio_unit_test module)
-  cmake_parse_arguments(arg "" "" "LINK" ${ARGN})
+  cmake_parse_arguments(arg "PARALLEL" "" "LINK" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   add_executable(test_${module} ${sources})
   gonio_warnings(test_${module})
   target_link_libraries(test_${module} PRIVATE ${arg_LINK} GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${module} PRIVATE GONIO_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(test_${module} PROPERTIES TIMEOUT 600 LABELS unit DISCOVERY_TIMEOUT 60)
+  set(label unit)
+  add_dependencies(unit_tests test_${module})
+  if(arg_PARALLEL)
+    set(label unit_parallel)
+    add_dependencies(parallel_tests test_${module})
+  endif()
+  gtest_discover_tests(test_${module} PROPERTIES TIMEOUT 600 LABELS ${label}
+                       FAIL_REGULAR_EXPRESSION "0 tests from 0 test suites ran" DISCOVERY_TIMEOUT 60)
+endfunction()
+
+# gonio_benchmark(<name> [LINK <target>...])
+# The program bench_<name> from <name>_benchmark.cpp. ctest, label bench, only shows that it runs.
+function(gonio_benchmark name)
+  cmake_parse_arguments(arg "" "" "LINK" ${ARGN})
+  add_executable(bench_${name} ${name}_benchmark.cpp)
+  gonio_warnings(bench_${name})
+  target_link_libraries(bench_${name} PRIVATE ${arg_LINK} benchmark::benchmark_main)
+  target_compile_definitions(bench_${name} PRIVATE GONIO_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  add_test(NAME bench_${name} COMMAND bench_${name} --benchmark_min_time=0.01)
+  set_tests_properties(bench_${name} PROPERTIES LABELS bench TIMEOUT 600)
 endfunction()

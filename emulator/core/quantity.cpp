@@ -65,6 +65,9 @@ std::string Range::text() const {
 }
 
 std::optional<double> parse_quantity(std::string_view text, Dimension dimension) {
+  if (text.starts_with('+') && !text.starts_with("+-")) {
+    text.remove_prefix(1);  // from_chars reads no plus sign
+  }
   double value = 0.0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || !std::isfinite(value)) {

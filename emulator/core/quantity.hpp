@@ -27,7 +27,7 @@ struct Range {
 enum class Dimension { number, angle, length, gloss, time };
 
 /// The number in `text` in the base unit of its dimension: 1, radian, nanometre, GU, second.
-/// Numbers are read without regard to the locale; "60 deg", "550 nm", "0.1 GU", "10 ms".
+/// Numbers are read without regard to the locale; "60 deg", "+0.5 nm", "0.1 GU", "10 ms".
 /// @return  nothing if the text is not a finite number followed by a unit of that dimension.
 [[nodiscard]] std::optional<double> parse_quantity(std::string_view text, Dimension dimension);
 

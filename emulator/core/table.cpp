@@ -35,7 +35,8 @@ std::vector<Cell> split(std::string_view line) {
   std::vector<Cell> cells;
   for (std::size_t begin = 0;;) {
     const std::size_t end = std::min(line.find(',', begin), line.size());
-    cells.push_back({trimmed(line.substr(begin, end - begin)), int(begin) + 1});
+    const std::string_view text = trimmed(line.substr(begin, end - begin));
+    cells.push_back({text, int(text.empty() ? begin : std::size_t(text.data() - line.data())) + 1});
     if (end == line.size()) {
       return cells;
     }
@@ -53,7 +54,7 @@ class CsvReader {
       return;
     }
     const std::vector<Cell> cells = split(text);
-    if (table_.columns.empty() && header(cells)) {
+    if (table_.columns.empty() && header(cells, number)) {
       return;
     }
     if (cells.size() != table_.columns.size()) {
@@ -82,8 +83,13 @@ class CsvReader {
   }
 
   /// Takes the names from the first line. @return  whether that line was a header.
-  bool header(const std::vector<Cell>& cells) {
-    const bool named = !parse_quantity(cells.front().text, Dimension::number);
+  bool header(const std::vector<Cell>& cells, int line) {
+    const Cell& first = cells.front();
+    const bool named = !parse_quantity(first.text, Dimension::number);
+    if (named && first.text.find_first_of("+-.0123456789") == 0) {
+      throw InputError(place(line, first.column), "a number or the name of a column",
+                       std::string(first.text));
+    }
     for (std::size_t i = 0; i < cells.size(); ++i) {
       table_.columns.push_back(named ? std::string(cells[i].text) : std::to_string(i + 1));
     }

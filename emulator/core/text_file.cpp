@@ -19,6 +19,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::uintmax_t largest_input = 16u << 20;
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors begin UTF-8 with it
 
 std::string what_stands_there(const fs::path& path) {
   std::error_code error;
@@ -37,7 +38,8 @@ std::string what_stands_there(const fs::path& path) {
 
 std::string read_text_file(const fs::path& path) {
   const SourceMark mark{.file = path.string(), .line = 0, .column = 0, .key = {}};
-  if (!fs::is_regular_file(path)) {
+  std::error_code unreadable;
+  if (!fs::is_regular_file(path, unreadable)) {
     throw InputError(mark, "a file", what_stands_there(path));
   }
   if (fs::file_size(path) > largest_input) {
@@ -51,6 +53,9 @@ std::string read_text_file(const fs::path& path) {
   std::string text{std::istreambuf_iterator<char>(in), {}};
   if (text.find_first_not_of(" \t\r\n") == std::string::npos) {
     throw InputError(mark, "a file with content", "an empty file");
+  }
+  if (text.starts_with(byte_order_mark)) {
+    text.erase(0, byte_order_mark.size());
   }
   return text;
 }

@@ -6,7 +6,7 @@
 
 namespace gonio {
 
-/// The text of an input file.
+/// The text of an input file, without a byte order mark.
 /// @throws InputError  if it is missing, not a regular file, empty, or larger than 16 MiB.
 [[nodiscard]] std::string read_text_file(const std::filesystem::path& path);
 

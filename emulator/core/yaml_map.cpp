@@ -46,7 +46,10 @@ class TreeBuilder : public YAML::EventHandler {
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t anchor) override {
     refuse_anchor(mark, anchor);
-    scalar(mark, "");
+    YamlTree* node = scalar(mark, "");
+    if (node != nullptr && !node->key.empty()) {
+      node->mark = node->key_mark;  // a missing value has the mark of what follows, lines below
+    }
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
     throw InputError(place(mark), "a value", "an alias");
@@ -92,12 +95,15 @@ class TreeBuilder : public YAML::EventHandler {
     }
   }
 
-  void scalar(const YAML::Mark& mark, const std::string& value) {
+  /// A key, or a value. @return  the node of the value.
+  YamlTree* scalar(const YAML::Mark& mark, const std::string& text) {
     if (!open_.empty() && open_.back().node->kind == YamlKind::map && !open_.back().has_key) {
-      set_key(mark, value);
-    } else {
-      add(mark, YamlKind::scalar)->text = value;
+      set_key(mark, text);
+      return nullptr;
     }
+    YamlTree* node = add(mark, YamlKind::scalar);
+    node->text = text;
+    return node;
   }
 
   void set_key(const YAML::Mark& mark, const std::string& key) {
@@ -193,7 +199,9 @@ YamlNode YamlNode::load(const std::filesystem::path& path) {
 
 YamlNode YamlNode::parse(const std::string& text, const std::string& name) {
   TreeBuilder builder(name);
-  std::istringstream in(text);
+  // yaml-cpp 0.7 takes a quotation that nobody closed for complete if the text ends with a line
+  // break. After a last comment it does not.
+  std::istringstream in(text.ends_with('\n') ? text + "#" : text);
   try {
     YAML::Parser parser(in);
     while (parser.HandleNextDocument(builder)) {

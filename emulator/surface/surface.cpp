@@ -1,0 +1,52 @@
+#include "emulator/surface/surface.hpp"
+
+#include <cmath>
+
+namespace gonio {
+
+using Eigen::ArrayXd;
+
+ArrayXd Lobe::brdf(const Vector3& omega_i, const Vector3& omega_r) const {
+  DirectionBatch one;
+  one.x = ArrayXd::Constant(1, omega_r.x());
+  one.y = ArrayXd::Constant(1, omega_r.y());
+  one.z = ArrayXd::Constant(1, omega_r.z());
+  const ArrayXd s = colour(std::sqrt(std::max(0.0, 0.5 * (1.0 + omega_i.dot(omega_r)))));
+  ArrayXd g(1);
+  if (shape_parameter.size() == 0) {
+    shape->evaluate(0.0, omega_i, one, g);
+    return g(0) * s;
+  }
+  ArrayXd f_r(s.size());
+  for (Eigen::Index l = 0; l < s.size(); ++l) {
+    shape->evaluate(shape_parameter(l), omega_i, one, g);
+    f_r(l) = g(0) * s(l);
+  }
+  return f_r;
+}
+
+ArrayXd Surface::brdf(const Vector3& omega_i, const Vector3& omega_r) const {
+  ArrayXd sum = ArrayXd::Zero(grid.size());
+  for (const Lobe& lobe : lobes) {
+    sum += lobe.brdf(omega_i, omega_r);
+  }
+  return sum;
+}
+
+ArrayXd Surface::specular_reflectance(double cos_theta_i) const {
+  ArrayXd sum = ArrayXd::Zero(grid.size());
+  for (const Colour& interface : interfaces) {
+    sum += interface(cos_theta_i);
+  }
+  return sum;
+}
+
+void half_angle_cosine(const Vector3& omega_i, const DirectionBatch& omega_r,
+                       Eigen::Ref<ArrayXd> cos_theta_d) {
+  cos_theta_d =
+      (0.5 * (1.0 + omega_i.x() * omega_r.x + omega_i.y() * omega_r.y + omega_i.z() * omega_r.z))
+          .max(0.0)
+          .sqrt();
+}
+
+}  // namespace gonio
