@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 
 #include "emulator/integration/batch_kernels.hpp"
 #include "emulator/integration/chebyshev.hpp"
@@ -20,24 +22,80 @@ constexpr std::size_t most_source_cells = 4000;
 /// Rounding of sums of up to a million terms of like sign, relative to the sum.
 constexpr double rounding = 2e-14;
 
-/// Gauss points per cell and axis; more where more digits are asked for, which makes cells larger.
-struct Orders {
-  int source;
-  int receptor;
+/// How far breaks go, in widths of the lobe: through its tails, or where the receptor's edge cuts
+/// it.
+constexpr double to_the_edge = 1e9;
+constexpr double past_the_edge = 5.0;
+
+constexpr double growth = 3.0;  // of the distances between breaks
+
+/// How one axis is cut and which rule it gets.
+struct AxisPlan {
+  int gauss_points;
+  double first_break;  ///< of a graded series, in widths
 };
-Orders orders_for(double relative_tolerance) {
-  return relative_tolerance > 1e-8 ? Orders{3, 5} : Orders{5, 8};
+
+/// The rule that takes the fewest nodes for a Gaussian exp(-x^2) on [-extent, extent]. With n
+/// points on a cell of half size r, Gauss's error relative to the cell's size is about (2r)^2n
+/// (n!)^3 / ((2n + 1) (2n)!^2).
+AxisPlan plan_axis(double extent, double relative_tolerance) {
+  constexpr double end_of_gaussian = 5.0;
+  AxisPlan best{.gauss_points = 0, .first_break = 0.0};
+  double least = std::numeric_limits<double>::infinity();
+  for (const int n : {1, 2, 3, 4, 5, 7, 10, 15}) {
+    const double log_constant =
+        3.0 * std::lgamma(n + 1.0) - 2.0 * std::lgamma(2.0 * n + 1.0) - std::log(2.0 * n + 1.0);
+    const double r = 0.5 * std::exp((std::log(relative_tolerance) - log_constant) / (2.0 * n));
+    const double graded =
+        1.0 + 2.0 * std::ceil(std::log(std::max(extent / r, 1.0)) / std::log(growth));
+    const double cells = std::max(graded, std::ceil(std::min(extent, end_of_gaussian) / r));
+    if (cells * (2.0 * n + 1.0) < least) {
+      least = cells * (2.0 * n + 1.0);
+      best = {.gauss_points = n, .first_break = r};
+    }
+  }
+  return best;
 }
 
-/// Breaks on both sides of `centre`, at distances that grow from `width`.
-void add_graded(double centre, double width, double low, double high, std::vector<double>& breaks) {
-  constexpr double first = 1.5;
-  constexpr double growth = 4.0;
-  if (!(width > 0.0 && width < high - low)) {
+/// Where a lobe peaks in a tangent plane, and how far it spreads there.
+struct Peak {
+  PlanePoint at;
+  double width_u, width_v;
+};
+
+std::optional<Peak> peak_in(const Frame& frame, const Vector3& omega, const SlopeWidth& slope,
+                            double cos_theta_d) {
+  constexpr double widest = 0.5;  // cosines alone change over that
+  const auto point = project(frame, omega);
+  if (!point) {
+    return std::nullopt;
+  }
+  const double stretch = 1.0 + point->u * point->u + point->v * point->v;
+  return Peak{*point, std::min(2.0 * slope.x * stretch, widest),
+              std::min(2.0 * slope.y * std::abs(cos_theta_d) * stretch, widest)};
+}
+
+/// How both axes of a region are cut for a lobe.
+struct Plan {
+  AxisPlan p, q;
+
+  Plan(const Aperture& aperture, const std::optional<Peak>& peak, double relative_tolerance) {
+    const double half_u = 0.5 * (aperture.u_high() - aperture.u_low());
+    const double half_v = 0.5 * (aperture.v_high() - aperture.v_low());
+    p = plan_axis(peak ? half_u / peak->width_u : 1.0, relative_tolerance);
+    q = plan_axis(peak ? half_v / peak->width_v : 1.0, relative_tolerance);
+  }
+};
+
+/// Breaks on both sides of `centre`, at distances that grow from `first` up to `reach`.
+void add_graded(double centre, double first, double reach, double low, double high,
+                std::vector<double>& breaks) {
+  if (!(first > 0.0 && first < high - low)) {
     return;
   }
-  const double farthest = std::max(std::abs(centre - low), std::abs(centre - high));
-  for (double distance = first * width; distance < farthest; distance *= growth) {
+  const double farthest =
+      std::min(std::max(std::abs(centre - low), std::abs(centre - high)), reach);
+  for (double distance = first; distance < farthest; distance *= growth) {
     for (const double x : {centre - distance, centre + distance}) {
       if (x > low && x < high) {
         breaks.push_back(x);
@@ -49,53 +107,41 @@ void add_graded(double centre, double width, double low, double high, std::vecto
 struct Breaks {
   std::vector<double> p, q;
 
-  /// Breaks round a point, in the coordinates of a region.
-  void add(const Region& region, const PlanePoint& centre, double width_u, double width_v) {
+  /// Breaks in u and in v round a peak. @param reach  in widths.
+  void add_u(const Region& region, const Peak& peak, const AxisPlan& plan, double reach) {
     std::vector<double> us;
-    const double u_low = region.row(region.p_low()).u;
-    const double u_high = region.row(region.p_high()).u;
-    add_graded(centre.u, width_u, u_low, u_high, us);
+    add_graded(peak.at.u, plan.first_break * peak.width_u, reach * peak.width_u,
+               region.row(region.p_low()).u, region.row(region.p_high()).u, us);
     for (const double u : us) {
       p.push_back(region.p_at(u));
     }
-    const Region::Row row = region.row(region.p_at(std::clamp(centre.u, u_low, u_high)));
-    const double half = 0.5 * (row.v_high - row.v_low);
+  }
+  void add_v(const Region& region, const Peak& peak, const AxisPlan& plan, double reach) {
+    // Rows of a circle differ in length: the breaks fit the row nearest to the peak.
+    const Region::Row nearest = region.row(region.p_at(peak.at.u));
     const Region::Row middle = region.row(0.5 * (region.p_low() + region.p_high()));
-    const double scale = half > 0.0 ? half : 0.5 * (middle.v_high - middle.v_low);
-    if (scale > 0.0) {
-      add_graded((centre.v - 0.5 * (row.v_high + row.v_low)) / scale, width_v / scale, -1.0, 1.0,
-                 q);
+    const double half =
+        0.5 * std::max(nearest.v_high - nearest.v_low, 0.01 * (middle.v_high - middle.v_low));
+    if (half > 0.0) {
+      const double centre = (peak.at.v - 0.5 * (nearest.v_high + nearest.v_low)) / half;
+      const double width = peak.width_v / half;
+      add_graded(centre, plan.first_break * width, reach * width, -1.0, 1.0, q);
     }
   }
 };
-
-/// How far a lobe spreads round its peak in a tangent plane.
-struct PlaneWidth {
-  double u, v;
-};
-PlaneWidth plane_width(const SlopeWidth& slope, double cos_theta_d, const PlanePoint& peak) {
-  const double stretch = 1.0 + peak.u * peak.u + peak.v * peak.v;
-  return {2.0 * slope.x * stretch, 2.0 * slope.y * cos_theta_d * stretch};
-}
-
-/// What the differences of the rules make of a function at the nodes of a cell.
-void set_errors(const CellNodes& nodes, const ArrayXd& control, CellEstimate& estimate) {
-  const double best = (nodes.weight * control).sum();
-  estimate.error_p = std::abs(best - (nodes.gauss_p * control).sum());
-  estimate.error_q = std::abs(best - (nodes.gauss_q * control).sum());
-}
 
 /// Moments of one lobe over the receptor, for light from one direction: int g T_k cos r d omega_r.
 class ReceptorIntegral {
  public:
   ReceptorIntegral(const Lobe& lobe, double parameter, const Aperture& receptor,
-                   const ColourSeries& series, const VectorXd& functional, int order)
+                   const ColourSeries& series, const VectorXd& functional, const Plan& plan)
       : lobe_(lobe),
         parameter_(parameter),
         region_(receptor),
         series_(series),
         functional_(functional),
-        order_(order) {}
+        plan_(plan),
+        rule_(region_, plan.p.gauss_points, plan.q.gauss_points) {}
 
   Integral operator()(const Vector3& omega_i, double tolerance) {
     const double cos_theta_i = omega_i.z();
@@ -104,9 +150,9 @@ class ReceptorIntegral {
     }
     Breaks breaks;
     const SlopeWidth slope = lobe_.shape->slope_width(parameter_, cos_theta_i);
-    if (const auto peak = project(region_.frame(), mirrored(omega_i))) {
-      const PlaneWidth width = plane_width(slope, cos_theta_i, *peak);
-      breaks.add(region_, *peak, width.u, width.v);
+    if (const auto peak = peak_in(region_.frame(), mirrored(omega_i), slope, cos_theta_i)) {
+      breaks.add_u(region_, *peak, plan_.p, to_the_edge);
+      breaks.add_v(region_, *peak, plan_.q, to_the_edge);
     }
     return integrate(
         region_, std::move(breaks.p), std::move(breaks.q),
@@ -115,23 +161,23 @@ class ReceptorIntegral {
 
  private:
   CellEstimate estimate(const Vector3& omega_i, const Cell& cell) {
-    nodes_.place(region_, cell, order_, order_);
-    const Index n = nodes_.u.size();
+    nodes_.place(region_, cell, rule_);
+    const Index n = rule_.size();
     omega_r_.resize(n);
     x_.resize(n);
     control_.resize(n);
     g_.resize(n);
-    value_.setOnes(n);
-    kernel::tangent_directions(region_.frame(), nodes_.u, nodes_.v, omega_r_, value_);
+    ArrayXd& value = nodes_.area;  // becomes g cos r d omega_r, but for the weights of the rule
+    kernel::tangent_directions(region_.frame(), nodes_.u, nodes_.v, omega_r_, value);
     lobe_.shape->evaluate(parameter_, omega_i, omega_r_, g_);
     kernel::half_angle_argument(omega_i, omega_r_, series_.scale, series_.shift, x_);
     kernel::chebyshev_series(functional_, x_, control_);
-    value_ *= g_;
-    control_ *= value_;
+    value *= g_;
+    control_ *= value;
     CellEstimate result{.value = VectorXd::Zero(functional_.size())};
-    set_errors(nodes_, control_, result);
-    value_ *= nodes_.weight;
-    kernel::add_chebyshev_moments(x_, value_, result.value);
+    result.set_errors(rule_, control_);
+    value *= rule_.weight;
+    kernel::add_chebyshev_moments(x_, value, result.value);
     return result;
   }
 
@@ -140,11 +186,50 @@ class ReceptorIntegral {
   Region region_;
   const ColourSeries& series_;
   const VectorXd& functional_;
-  int order_;
+  Plan plan_;
+  SquareRule rule_;
   CellNodes nodes_;
   DirectionBatch omega_r_;
-  ArrayXd x_, g_, value_, control_;
+  ArrayXd x_, g_, control_;
 };
+
+/// The middles of the receptor's edges in the tangent plane of the source, seen in the mirror. As a
+/// function of the direction of incidence, what arrives in the receptor changes there, within the
+/// width of the lobe. Low u, high u, low v, high v; none if an edge is out of sight.
+std::vector<Peak> receptor_edges(const MeasuringGeometry& geometry, const SlopeWidth& slope) {
+  const Aperture edge = geometry.receptor.mirrored();
+  const double middle_u = 0.5 * (edge.u_low() + edge.u_high());
+  const double middle_v = 0.5 * (edge.v_low() + edge.v_high());
+  std::vector<Peak> edges;
+  for (const PlanePoint& at :
+       {PlanePoint{edge.u_low(), middle_v}, PlanePoint{edge.u_high(), middle_v},
+        PlanePoint{middle_u, edge.v_low()}, PlanePoint{middle_u, edge.v_high()}}) {
+    const Vector3 omega = edge.frame().direction(at.u, at.v);
+    const auto peak =
+        peak_in(geometry.source.frame(), omega, slope, geometry.source.frame().axis.z());
+    if (!peak) {
+      return {};
+    }
+    edges.push_back(*peak);
+  }
+  return edges;
+}
+
+/// The scale on which the receptor's signal changes over the source: the width of the lobe, or the
+/// gap between the source image and the edges of the receptor if that is wider.
+std::optional<Peak> smoothed(const Aperture& source, const std::vector<Peak>& edges) {
+  if (edges.empty()) {
+    return std::nullopt;
+  }
+  const auto gap = [](double low, double high, double edge_a, double edge_b) {
+    return std::max(0.0, std::min(low - std::min(edge_a, edge_b), std::max(edge_a, edge_b) - high));
+  };
+  const double gap_u = gap(source.u_low(), source.u_high(), edges[0].at.u, edges[1].at.u);
+  const double gap_v = gap(source.v_low(), source.v_high(), edges[2].at.v, edges[3].at.v);
+  return Peak{.at = {0.0, 0.0},
+              .width_u = std::hypot(edges[0].width_u, gap_u),
+              .width_v = std::hypot(edges[2].width_v, gap_v)};
+}
 
 /// The same over the source too: int cos i d omega_i of the receptor's moments.
 Integral lobe_moments(const Lobe& lobe, double parameter, const MeasuringGeometry& geometry,
@@ -152,42 +237,43 @@ Integral lobe_moments(const Lobe& lobe, double parameter, const MeasuringGeometr
                       double incident) {
   const Index terms = functional.size();
   const Region source(geometry.source);
-  const Orders orders = orders_for(tolerance / incident);
-  ReceptorIntegral receptor(lobe, parameter, geometry.receptor, series, functional,
-                            orders.receptor);
+  const double relative = std::clamp(tolerance / incident, 1e-15, 1e-3);
+  const Vector3& axis = geometry.source.frame().axis;
+  const SlopeWidth slope = lobe.shape->slope_width(parameter, std::max(axis.z(), 0.0));
+  const Plan receptor_plan(geometry.receptor,
+                           peak_in(geometry.receptor.frame(), mirrored(axis), slope, axis.z()),
+                           relative);
+  ReceptorIntegral receptor(lobe, parameter, geometry.receptor, series, functional, receptor_plan);
+  const auto edges = receptor_edges(geometry, slope);
+  const Plan plan(geometry.source, smoothed(geometry.source, edges), relative);
   Breaks breaks;
-  const double cos_theta_i = geometry.source.frame().axis.z();
-  const SlopeWidth slope = lobe.shape->slope_width(parameter, std::max(cos_theta_i, 0.0));
-  const Aperture edge = geometry.receptor.mirrored();  // the lobe passes it within its own width
-  for (const double side : {0.0, 1.0}) {
-    const double u = std::lerp(edge.u_low(), edge.u_high(), side);
-    const double v = std::lerp(edge.v_low(), edge.v_high(), side);
-    for (const Vector3& omega : {edge.frame().direction(u, 0.0), edge.frame().direction(0.0, v)}) {
-      if (const auto point = project(source.frame(), omega)) {
-        const PlaneWidth width = plane_width(slope, std::abs(cos_theta_i), *point);
-        breaks.add(source, *point, width.u, width.v);
-      }
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (i < 2) {
+      breaks.add_u(source, edges[i], plan.p, past_the_edge);
+    } else {
+      breaks.add_v(source, edges[i], plan.q, past_the_edge);
     }
   }
   const double inner_tolerance = 0.25 * tolerance / incident;
+  const SquareRule rule(source, plan.p.gauss_points, plan.q.gauss_points);
   const auto estimate = [&](const Cell& cell) {
     CellNodes nodes;
-    nodes.place(source, cell, orders.source, orders.source);
-    const Index n = nodes.u.size();
+    nodes.place(source, cell, rule);
+    const Index n = rule.size();
     DirectionBatch omega_i;
     omega_i.resize(n);
-    ArrayXd factor = ArrayXd::Ones(n);
+    ArrayXd& factor = nodes.area;  // becomes cos i d omega_i, but for the weights of the rule
     kernel::tangent_directions(source.frame(), nodes.u, nodes.v, omega_i, factor);
-    CellEstimate result{.value = VectorXd::Zero(terms + 1)};  // the last one is the inner error
     ArrayXd control(n);
+    CellEstimate result{.value = VectorXd::Zero(terms + 1)};  // the last one is the inner error
     for (Index j = 0; j < n; ++j) {
       const Integral inner = receptor({omega_i.x(j), omega_i.y(j), omega_i.z(j)}, inner_tolerance);
       control(j) = factor(j) * functional.dot(inner.value);
-      const double weight = nodes.weight(j) * factor(j);
+      const double weight = rule.weight(j) * factor(j);
       result.value.head(terms) += weight * inner.value;
       result.value(terms) += weight * inner.error;
     }
-    set_errors(nodes, control, result);
+    result.set_errors(rule, control);
     return result;
   };
   Integral sum = integrate(source, std::move(breaks.p), std::move(breaks.q), estimate,
@@ -270,21 +356,21 @@ Flux interface_flux(const Colour& reflectance, const Region& region, const Cosin
   constexpr std::size_t most_cells = 4000;
   const ColourSeries series(reflectance, range.low, range.high, 0.02 * tolerance);
   const VectorXd functional = series.coefficient * weight.matrix();
+  const SquareRule rule(region, order, order);
   CellNodes nodes;
+  DirectionBatch omega;
+  omega.resize(rule.size());
+  ArrayXd control(rule.size());
   const auto estimate = [&](const Cell& cell) {
-    nodes.place(region, cell, order, order);
-    const Index n = nodes.u.size();
-    DirectionBatch omega;
-    omega.resize(n);
-    ArrayXd value = ArrayXd::Ones(n);
+    nodes.place(region, cell, rule);
+    ArrayXd& value = nodes.area;  // becomes cos i d omega_i, but for the weights of the rule
     kernel::tangent_directions(region.frame(), nodes.u, nodes.v, omega, value);
     const ArrayXd x = (series.scale * omega.z + series.shift).max(-1.0).min(1.0);
-    ArrayXd control(n);
     kernel::chebyshev_series(functional, x, control);
     control *= value;
     CellEstimate result{.value = VectorXd::Zero(functional.size())};
-    set_errors(nodes, control, result);
-    value *= nodes.weight;
+    result.set_errors(rule, control);
+    value *= rule.weight;
     kernel::add_chebyshev_moments(x, value, result.value);
     return result;
   };
@@ -328,8 +414,9 @@ Flux ApertureIntegrator::reflected(const Surface& surface, const MeasuringGeomet
 
 double ApertureIntegrator::incident(const Aperture& source) const {
   const ArrayXd one = ArrayXd::Ones(1);
+  constexpr double tolerance = 1e-16;
   return interface_flux([&](double) { return one; }, Region(source), incidence_range(source), one,
-                        0.0)
+                        tolerance)
       .spectral(0);
 }
 

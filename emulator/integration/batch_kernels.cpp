@@ -1,5 +1,6 @@
 #include "emulator/integration/batch_kernels.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "emulator/core/multiversion.hpp"
@@ -10,66 +11,66 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-GONIO_CLONES void tangent_directions(const Frame& frame, const ArrayXd& u, const ArrayXd& v,
-                                     DirectionBatch& omega, ArrayXd& factor) {
+namespace {
+
+/// Only `__restrict` parameters tell the compiler that so many arrays do not overlap.
+GONIO_CLONES void tangent_loop(const Frame& frame, Index n, const double* __restrict u,
+                               const double* __restrict v, double* __restrict x,
+                               double* __restrict y, double* __restrict z,
+                               double* __restrict factor) {
   const double ax = frame.axis.x(), ay = frame.axis.y(), az = frame.axis.z();
   const double ux = frame.u.x(), uy = frame.u.y(), uz = frame.u.z();
   const double vx = frame.v.x(), vy = frame.v.y(), vz = frame.v.z();
-  const double* __restrict us = u.data();
-  const double* __restrict vs = v.data();
-  double* __restrict x = omega.x.data();
-  double* __restrict y = omega.y.data();
-  double* __restrict z = omega.z.data();
-  double* __restrict f = factor.data();
-  const Index n = u.size();
   for (Index j = 0; j < n; ++j) {
-    const double per_length = 1.0 / std::sqrt(1.0 + us[j] * us[j] + vs[j] * vs[j]);
-    const double cos_theta = (az + us[j] * uz + vs[j] * vz) * per_length;
-    x[j] = (ax + us[j] * ux + vs[j] * vx) * per_length;
-    y[j] = (ay + us[j] * uy + vs[j] * vy) * per_length;
+    const double per_length = 1.0 / std::sqrt(1.0 + u[j] * u[j] + v[j] * v[j]);
+    const double cos_theta = (az + u[j] * uz + v[j] * vz) * per_length;
+    x[j] = (ax + u[j] * ux + v[j] * vx) * per_length;
+    y[j] = (ay + u[j] * uy + v[j] * vy) * per_length;
     z[j] = cos_theta;
-    const double projected = per_length * per_length * per_length * cos_theta;
-    f[j] *= cos_theta > 0.0 ? projected : 0.0;
+    const double above = cos_theta > 0.0 ? cos_theta : 0.0;
+    factor[j] = factor[j] * per_length * per_length * per_length * above;
   }
+}
+
+}  // namespace
+
+void tangent_directions(const Frame& frame, const ArrayXd& u, const ArrayXd& v,
+                        DirectionBatch& omega, ArrayXd& factor) {
+  tangent_loop(frame, u.size(), u.data(), v.data(), omega.x.data(), omega.y.data(), omega.z.data(),
+               factor.data());
 }
 
 GONIO_CLONES void add_chebyshev_moments(const ArrayXd& x, const ArrayXd& f,
                                         Eigen::Ref<VectorXd> moment) {
   constexpr Index lanes = 8;
-  constexpr Index most_terms = 128;
-  const Index terms = moment.size() < most_terms ? moment.size() : most_terms;
-  double sum[most_terms][lanes];
-  for (Index k = 0; k < terms; ++k) {
-    for (Index l = 0; l < lanes; ++l) {
-      sum[k][l] = 0.0;
+  constexpr Index block = 128;  // what stays in registers and the nearest cache
+  double x2[block];
+  double last[block];
+  double now[block];
+  for (Index begin = 0; begin < x.size(); begin += block) {
+    const Index here = std::min(block, x.size() - begin);
+    const Index padded = (here + lanes - 1) / lanes * lanes;
+    for (Index j = 0; j < here; ++j) {
+      x2[j] = 2.0 * x.data()[begin + j];
+      now[j] = f.data()[begin + j];
+      last[j] = 0.5 * x2[j] * now[j];  // f T_-1 = f T_1
     }
-  }
-  const Index n = x.size();
-  for (Index j = 0; j < n; j += lanes) {
-    double x2[lanes] = {};
-    double last[lanes] = {};
-    double now[lanes] = {};
-    const Index here = n - j < lanes ? n - j : lanes;
-    for (Index l = 0; l < here; ++l) {
-      x2[l] = 2.0 * x.data()[j + l];
-      now[l] = f.data()[j + l];
-      last[l] = 0.5 * x2[l] * now[l];  // f T_-1 = f T_1
+    for (Index j = here; j < padded; ++j) {
+      x2[j] = now[j] = last[j] = 0.0;
     }
-    for (Index k = 0; k < terms; ++k) {
-      for (Index l = 0; l < lanes; ++l) {
-        sum[k][l] += now[l];
-        const double next = x2[l] * now[l] - last[l];
-        last[l] = now[l];
-        now[l] = next;
+    for (Index k = 0; k < moment.size(); ++k) {
+      double sum[lanes] = {};
+      for (Index j = 0; j < padded; j += lanes) {
+        for (Index l = 0; l < lanes; ++l) {
+          sum[l] += now[j + l];
+          const double next = x2[j + l] * now[j + l] - last[j + l];
+          last[j + l] = now[j + l];
+          now[j + l] = next;
+        }
       }
+      moment(k) +=
+          ((sum[0] + sum[1]) + (sum[2] + sum[3])) + ((sum[4] + sum[5]) + (sum[6] + sum[7]));
     }
-  }
-  for (Index k = 0; k < terms; ++k) {
-    double total = 0.0;
-    for (Index l = 0; l < lanes; ++l) {
-      total += sum[k][l];
-    }
-    moment(k) += total;
   }
 }
 

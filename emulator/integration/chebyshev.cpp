@@ -13,6 +13,7 @@ using std::numbers::pi;
 namespace {
 
 constexpr Index most_terms = 128;
+constexpr double rounding = 1e-15;  // of a coefficient, relative to the largest
 
 /// Values at the n zeros of T_n to coefficients, shape (n, n).
 MatrixXd to_coefficients(Index n) {
@@ -69,7 +70,8 @@ ColourSeries::ColourSeries(const Colour& colour, double low, double high, double
     coefficient = to_coefficients(n) * value;
     // The last two coefficients say how fast the series falls.
     truncation = coefficient.bottomRows(2).cwiseAbs().colwise().sum().transpose().array();
-    if (truncation.maxCoeff() <= accuracy || n > most_terms / 2) {
+    if (truncation.maxCoeff() <= std::max(accuracy, rounding * coefficient.cwiseAbs().maxCoeff()) ||
+        n > most_terms / 2) {
       Index used = n;
       while (used > 1 && coefficient.row(used - 1).cwiseAbs().maxCoeff() <= 0.1 * accuracy) {
         --used;

@@ -13,23 +13,13 @@ using Eigen::Index;
 /// Differences below this share of the whole are rounding; halving a cell would not lessen them.
 constexpr double rounding = 2e-15;
 
-struct Axis {
-  ArrayXd node, kronrod, gauss;
-
-  /// The rule of n Gauss points on [low, high], or one node of weight 1 if that is a point.
-  Axis(double low, double high, int n) {
-    if (low == high) {
-      node = ArrayXd::Constant(1, low);
-      kronrod = gauss = ArrayXd::Ones(1);
-      return;
-    }
-    const KronrodRule& rule = kronrod_rule(n);
-    const double half = 0.5 * (high - low);
-    node = 0.5 * (high + low) + half * rule.node;
-    kronrod = half * rule.kronrod;
-    gauss = half * rule.gauss;
+/// One axis of a square rule.
+KronrodRule axis_rule(bool has_extent, int gauss_points) {
+  if (has_extent) {
+    return kronrod_rule(gauss_points);
   }
-};
+  return {.node = ArrayXd::Zero(1), .kronrod = ArrayXd::Ones(1), .gauss = ArrayXd::Ones(1)};
+}
 
 struct HeapCell {
   Cell cell;
@@ -57,27 +47,58 @@ std::vector<double> edges(double low, double high, std::vector<double> breaks) {
 
 }  // namespace
 
-void CellNodes::place(const Region& region, const Cell& cell, int rule_p, int rule_q) {
-  const Axis p(cell.p_low, cell.p_high, rule_p);
-  const Region::Row middle = region.row(0.5 * (cell.p_low + cell.p_high));
-  const bool is_line = middle.v_low == middle.v_high;
-  const Axis q = is_line ? Axis(0.0, 0.0, rule_q) : Axis(cell.q_low, cell.q_high, rule_q);
-  const Index rows = p.node.size();
-  const Index columns = q.node.size();
-  for (ArrayXd* array : {&u, &v, &weight, &gauss_p, &gauss_q}) {
+SquareRule::SquareRule(const Region& region, int gauss_points_p, int gauss_points_q) {
+  const KronrodRule along_p = axis_rule(region.has_extent_p(), gauss_points_p);
+  const KronrodRule along_q = axis_rule(region.has_extent_q(), gauss_points_q);
+  const Index rows = along_p.node.size();
+  const Index columns = along_q.node.size();
+  for (ArrayXd* array : {&p, &q, &weight, &less_gauss_p, &less_gauss_q}) {
     array->resize(rows * columns);
   }
-  for (Index a = 0; a < rows; ++a) {
-    const Region::Row row = region.row(p.node(a));
-    const double half = 0.5 * (row.v_high - row.v_low);
-    const double area = half < 0.0 ? 0.0 : row.du_dp * (is_line ? 1.0 : half);
-    const auto part = Eigen::seqN(a * columns, columns);
-    u(part) = row.u;
-    v(part) = 0.5 * (row.v_high + row.v_low) + half * q.node;
-    weight(part) = area * p.kronrod(a) * q.kronrod;
-    gauss_p(part) = area * p.gauss(a) * q.kronrod;
-    gauss_q(part) = area * p.kronrod(a) * q.gauss;
+  for (Index row = 0; row < rows; ++row) {
+    const auto part = Eigen::seqN(row * columns, columns);
+    p(part) = along_p.node(row);
+    q(part) = along_q.node;
+    weight(part) = along_p.kronrod(row) * along_q.kronrod;
+    less_gauss_p(part) = (along_p.kronrod(row) - along_p.gauss(row)) * along_q.kronrod;
+    less_gauss_q(part) = along_p.kronrod(row) * (along_q.kronrod - along_q.gauss);
   }
+}
+
+void CellNodes::place(const Region& region, const Cell& cell, const SquareRule& rule) {
+  const Index n = rule.size();
+  u.resize(n);
+  v.resize(n);
+  area.resize(n);
+  const double middle_p = 0.5 * (cell.p_high + cell.p_low);
+  const double half_p = 0.5 * (cell.p_high - cell.p_low);
+  const double middle_q = 0.5 * (cell.q_high + cell.q_low);
+  const double half_q = 0.5 * (cell.q_high - cell.q_low);
+  const double size_p = region.has_extent_p() ? half_p : 1.0;
+  if (region.has_equal_rows()) {
+    const Region::Row any = region.row(middle_p);
+    const double half_v = 0.5 * (any.v_high - any.v_low);
+    u = middle_p + half_p * rule.p;
+    v = 0.5 * (any.v_high + any.v_low) + half_v * (middle_q + half_q * rule.q);
+    area = size_p * (region.has_extent_q() ? half_v * half_q : 1.0);
+    return;
+  }
+  Region::Row row{};
+  for (Index j = 0; j < n; ++j) {
+    if (j == 0 || rule.p(j) != rule.p(j - 1)) {
+      row = region.row(middle_p + half_p * rule.p(j));
+    }
+    const double half_v = 0.5 * (row.v_high - row.v_low);
+    const double size_q = region.has_extent_q() ? half_v * half_q : 1.0;
+    u(j) = row.u;
+    v(j) = 0.5 * (row.v_high + row.v_low) + half_v * (middle_q + half_q * rule.q(j));
+    area(j) = half_v < 0.0 ? 0.0 : size_p * row.du_dp * size_q;
+  }
+}
+
+void CellEstimate::set_errors(const SquareRule& rule, const ArrayXd& control) {
+  error_p = std::abs((rule.less_gauss_p * control).sum());
+  error_q = std::abs((rule.less_gauss_q * control).sum());
 }
 
 Integral integrate(const Region& region, std::vector<double> p_breaks, std::vector<double> q_breaks,

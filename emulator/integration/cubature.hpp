@@ -15,15 +15,24 @@ struct Cell {
   double p_low, p_high, q_low, q_high;
 };
 
-/// The nodes of a cell and their weights, the size of the area they stand for included.
+/// The product of two Kronrod rules on the square [-1, 1]^2; an axis without extent has one node of
+/// weight 1.
+struct SquareRule {
+  Eigen::ArrayXd p, q;          ///< nodes, shape (n)
+  Eigen::ArrayXd weight;        ///< Kronrod in both axes, shape (n)
+  Eigen::ArrayXd less_gauss_p;  ///< the same less Gauss in p and Kronrod in q
+  Eigen::ArrayXd less_gauss_q;  ///< the same less Kronrod in p and Gauss in q
+
+  SquareRule(const Region& region, int gauss_points_p, int gauss_points_q);
+  [[nodiscard]] Eigen::Index size() const { return p.size(); }
+};
+
+/// The nodes of a rule in a cell.
 struct CellNodes {
   Eigen::ArrayXd u, v;
-  Eigen::ArrayXd weight;   ///< Kronrod in both axes
-  Eigen::ArrayXd gauss_p;  ///< Gauss in p, Kronrod in q
-  Eigen::ArrayXd gauss_q;  ///< Kronrod in p, Gauss in q
+  Eigen::ArrayXd area;  ///< du dv / (dp dq of the square), 0 outside the region
 
-  /// @param rule_p, rule_q  numbers of Gauss points; an axis without extent takes one node.
-  void place(const Region& region, const Cell& cell, int rule_p, int rule_q);
+  void place(const Region& region, const Cell& cell, const SquareRule& rule);
 };
 
 /// An integral over a cell, and by how much the rule of lower order differs in each axis.
@@ -31,6 +40,9 @@ struct CellEstimate {
   Eigen::VectorXd value;
   double error_p = 0.0;
   double error_q = 0.0;
+
+  /// @param control  the function whose error counts, at the nodes, times their area.
+  void set_errors(const SquareRule& rule, const Eigen::ArrayXd& control);
 };
 
 /// An integral, and a bound on the error of the functional that its integrator watches.

@@ -25,6 +25,13 @@ class Region {
   [[nodiscard]] const Frame& frame() const { return aperture_.frame(); }
   [[nodiscard]] double p_low() const;
   [[nodiscard]] double p_high() const;
+  /// False where the aperture is a line or a point: there is one row, or one point in each.
+  [[nodiscard]] bool has_extent_p() const { return aperture_.u_low() != aperture_.u_high(); }
+  [[nodiscard]] bool has_extent_q() const { return aperture_.v_low() != aperture_.v_high(); }
+  /// All rows have the same v, and u is p: a whole rectangle.
+  [[nodiscard]] bool has_equal_rows() const {
+    return !other_ && aperture_.outline() == Aperture::Outline::rectangle;
+  }
   [[nodiscard]] Row row(double p) const;
   /// p of the row at u, clamped to the region.
   [[nodiscard]] double p_at(double u) const;

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "emulator/core/multiversion.hpp"
+
 namespace gonio {
 
 namespace {
@@ -20,7 +22,7 @@ void expect_arguments(double cos_theta_i, std::complex<double> n_hat) {
 }
 
 /// The reflectances in real arithmetic, with q = a + ib. No branch, so that it vectorises.
-inline PolarisedReflectance reflectances(double c, double n, double k) {
+[[gnu::always_inline]] inline PolarisedReflectance reflectances(double c, double n, double k) {
   const double sin2 = 1.0 - c * c;
   const double re_q2 = n * n - k * k - sin2;
   const double nk = n * k;
@@ -33,6 +35,17 @@ inline PolarisedReflectance reflectances(double c, double n, double k) {
   const double s = (abs_q2 - ac2 + c * c) / (abs_q2 + ac2 + c * c);
   const double even = abs_q2 * c * c + sin2 * sin2;
   return {s, s * (even - ac2 * sin2) / (even + ac2 * sin2)};
+}
+
+GONIO_CLONES void kernel_unpolarised(double cos_theta_i, const Eigen::ArrayXcd& n_hat,
+                                     Eigen::ArrayXd& rho) {
+  const double* __restrict parts = reinterpret_cast<const double*>(n_hat.data());
+  double* __restrict out = rho.data();
+  const Eigen::Index n = n_hat.size();
+  for (Eigen::Index l = 0; l < n; ++l) {
+    const PolarisedReflectance part = reflectances(cos_theta_i, parts[2 * l], parts[2 * l + 1]);
+    out[l] = 0.5 * (part.s + part.p);
+  }
 }
 
 }  // namespace
@@ -56,12 +69,11 @@ double fresnel_reflectance(double cos_theta_i, std::complex<double> n_hat) {
 }
 
 Eigen::ArrayXd fresnel_reflectance(double cos_theta_i, const Eigen::ArrayXcd& n_hat) {
-  Eigen::ArrayXd rho(n_hat.size());
-  for (Eigen::Index l = 0; l < n_hat.size(); ++l) {
-    expect_arguments(cos_theta_i, n_hat(l));
-    const PolarisedReflectance part = reflectances(cos_theta_i, n_hat(l).real(), n_hat(l).imag());
-    rho(l) = 0.5 * (part.s + part.p);
+  for (const std::complex<double>& index : n_hat) {
+    expect_arguments(cos_theta_i, index);
   }
+  Eigen::ArrayXd rho(n_hat.size());
+  kernel_unpolarised(cos_theta_i, n_hat, rho);
   return rho;
 }
 
