@@ -1,1 +1,68 @@
-int main() {}
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <system_error>
+
+#include "emulator/app/command.hpp"
+#include "emulator/core/input_error.hpp"
+
+namespace gonio::app {
+
+void print(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
+    throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
+  }
+}
+
+void add_format_option(CLI::App& command, std::string& format) {
+  command.add_option("--format", format, "How results are printed")
+      ->check(CLI::IsMember({"text", "json", "csv"}))
+      ->capture_default_str();
+}
+
+namespace {
+
+int run(int argc, char** argv) {
+  CLI::App program{"Virtual gonio-spectrophotometer and glossmeter", "gonio"};
+  program.set_version_flag("--version", "gonio " GONIO_VERSION);
+  program.require_subcommand(1);
+  program.fallthrough();
+  program.footer(
+      "Example: gonio measure --sample copper_polished --standard iso_2813/2014\n"
+      "Exit status: 0 done, 1 does not conform, 2 bad input, 3 the environment failed");
+  CommonOptions common;
+  program.add_option("--data", common.data_dir,
+                     "Folder with standards and fixtures, searched first");
+  add_measure_command(program, common);
+  add_list_command(program, common);
+  add_glass_command(program, common);
+  try {
+    program.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return program.exit(error) == 0 ? done : bad_input;
+  }
+  return done;
+}
+
+}  // namespace
+
+}  // namespace gonio::app
+
+int main(int argc, char** argv) {
+  using namespace gonio::app;
+  try {
+    return run(argc, argv);
+  } catch (const gonio::InputError& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return bad_input;
+  } catch (const std::invalid_argument& error) {
+    fmt::print(stderr, "gonio: {}\n", error.what());
+    return bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "gonio: {}\n", error.what());
+    return environment_failed;
+  }
+}

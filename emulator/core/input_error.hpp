@@ -10,7 +10,7 @@ struct SourceMark {
   std::string file;
   int line = 0;
   int column = 0;
-  std::string key;  ///< path of keys, e.g. "surface.rms_slope"; empty at the top of a file
+  std::string key = {};  ///< path of keys, e.g. "surface.rms_slope"; empty at the top of a file
 
   /// "file:line:column: key", without the parts that are not there.
   [[nodiscard]] std::string text() const;

@@ -292,6 +292,13 @@ std::vector<YamlNode> YamlNode::list() const {
   if (!is_list() || node_->children.empty()) {
     fail("a list of at least one item");
   }
+  return list_or_empty();
+}
+
+std::vector<YamlNode> YamlNode::list_or_empty() const {
+  if (!is_list()) {
+    fail("a list");
+  }
   std::vector<YamlNode> items;
   for (const auto& item : node_->children) {
     items.push_back(child(*item));

@@ -48,6 +48,7 @@ class YamlNode {
   /// A file path, resolved relative to the folder of this YAML file.
   [[nodiscard]] std::filesystem::path file_path() const;
   [[nodiscard]] std::vector<YamlNode> list() const;  ///< a list of at least one item
+  [[nodiscard]] std::vector<YamlNode> list_or_empty() const;
 
   /// Calls `read` with this map and returns what it returns.
   /// A key of the map that `read` did not ask for is an error at its line.

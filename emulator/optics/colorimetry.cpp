@@ -19,51 +19,28 @@ double lab_function(double t) {
 double sin_deg(double angle_deg) { return std::sin(degrees(angle_deg).radians()); }
 double cos_deg(double angle_deg) { return std::cos(degrees(angle_deg).radians()); }
 
-/// Lightness, chroma, and hue angle in [0, 360) deg; the hue of a grey is 0.
+double from_0_to_360(double angle_deg) { return angle_deg - 360.0 * std::floor(angle_deg / 360.0); }
+
+/// Lightness, chroma, and hue angle in [0, 360) deg: its range decides between the two arcs from a
+/// hue to its opposite.
 struct Lch {
   double L;
   double C;
   double h_deg;
 };
 
-/// CIEDE2000 stretches a* so that greys of both colours compare evenly.
+/// CIEDE2000 stretches a* by a factor that counts for colours near grey.
 Lch stretched(const Lab& colour, double factor) {
   const double a = factor * colour.a;
-  const double h_deg = radians(std::atan2(colour.b, a)).degrees();
-  const bool grey = a == 0.0 && colour.b == 0.0;
   return {.L = colour.L,
           .C = std::hypot(a, colour.b),
-          .h_deg = grey ? 0.0 : h_deg + (h_deg < 0.0 ? 360.0 : 0.0)};
+          .h_deg = from_0_to_360(radians(std::atan2(colour.b, a)).degrees())};
 }
 
 /// C^7 / (C^7 + 25^7) under the root.
 double chroma_root(double C) {
   const double C_7 = std::pow(C, 7);
   return std::sqrt(C_7 / (C_7 + 6103515625.0));
-}
-
-/// Shortest way from one hue to the other, in [-180, 180]; 0 if one of them is grey.
-double hue_difference_deg(const Lch& first, const Lch& second) {
-  if (first.C * second.C == 0.0) {
-    return 0.0;
-  }
-  const double difference = second.h_deg - first.h_deg;
-  if (std::abs(difference) <= 180.0) {
-    return difference;
-  }
-  return difference + (difference > 0.0 ? -360.0 : 360.0);
-}
-
-/// Hue half way along the shorter arc; the sum of both if one of them is grey.
-double mean_hue_deg(const Lch& first, const Lch& second) {
-  const double sum = first.h_deg + second.h_deg;
-  if (first.C * second.C == 0.0) {
-    return sum;
-  }
-  if (std::abs(first.h_deg - second.h_deg) <= 180.0) {
-    return sum / 2.0;
-  }
-  return (sum + (sum < 360.0 ? 360.0 : -360.0)) / 2.0;
 }
 
 }  // namespace
@@ -120,13 +97,15 @@ double ciede2000(const Lab& first, const Lab& second, const Ciede2000Weights& we
   const Lch one = stretched(first, stretch);
   const Lch two = stretched(second, stretch);
 
-  const double delta_h_deg = hue_difference_deg(one, two);
+  // The shorter way round, and the hue half way along it. The hue of a grey is any number: its
+  // chroma of 0 makes delta_H 0, and nothing else depends on the hue then.
+  const double delta_h_deg = std::remainder(two.h_deg - one.h_deg, 360.0);
   const double delta_L = two.L - one.L;
   const double delta_C = two.C - one.C;
   const double delta_H = 2.0 * std::sqrt(one.C * two.C) * sin_deg(delta_h_deg / 2.0);
 
   const double C = (one.C + two.C) / 2.0;
-  const double h = mean_hue_deg(one, two);
+  const double h = from_0_to_360(one.h_deg + delta_h_deg / 2.0);
   const double L_50 = std::pow((one.L + two.L) / 2.0 - 50.0, 2);
   const double T = 1.0 - 0.17 * cos_deg(h - 30.0) + 0.24 * cos_deg(2.0 * h) +
                    0.32 * cos_deg(3.0 * h + 6.0) - 0.20 * cos_deg(4.0 * h - 63.0);

@@ -1,5 +1,6 @@
 #include "emulator/core/yaml_map.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -132,9 +133,9 @@ TEST(YamlNodeLoad, RefusesTextThatIsNotYaml) {
 TEST(YamlNodeLoad, RefusesAQuotationThatNobodyClosed) {
   for (const std::string quote : {"'", "\""}) {
     for (const std::string end : {"", "\n", "\n\n", "\nb: 2\n", "\r\n"}) {
-      EXPECT_THAT(parse_error("a: " + quote + "open" + end),
-                  EndsWith("expected YAML, found 'illegal EOF in scalar'"))
-          << "a: " << quote << "open" << end;
+      const std::string text = fmt::format("a: {}open{}", quote, end);
+      EXPECT_THAT(parse_error(text), EndsWith("expected YAML, found 'illegal EOF in scalar'"))
+          << text;
     }
   }
 }
@@ -281,6 +282,13 @@ TEST(YamlNodeList, RefusesWhatIsNoListAndAnEmptyOne) {
             "a.yaml:1:4: x: expected a list of at least one item, found '1'");
   EXPECT_EQ(value_error("[]", list),
             "a.yaml:1:4: x: expected a list of at least one item, found 'a list'");
+}
+
+TEST(YamlNodeList, MayBeEmptyWhereThatIsAskedFor) {
+  EXPECT_TRUE(value("[]").list_or_empty().empty());
+  EXPECT_EQ(value("[1, 2]").list_or_empty().size(), 2U);
+  EXPECT_EQ(value_error("1", [](const YamlNode& node) { (void)node.list_or_empty(); }),
+            "a.yaml:1:4: x: expected a list, found '1'");
 }
 
 TEST(YamlNodeEntries, ComeInTheOrderOfTheFileWithTheirKeys) {

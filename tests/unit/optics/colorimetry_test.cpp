@@ -88,11 +88,12 @@ TEST(WhitePoint, EqualsTheReferenceForEveryIlluminant) {
     const SpectralTable spd = illuminant(name);
     const WavelengthGrid grid = grid_for(spd);
     const Eigen::ArrayXd light = spd.sample(grid);
-    for (const auto& [angle, file] : {std::pair("2", observer_2deg), {"10", observer_10deg}}) {
+    for (const std::string angle : {"2", "10"}) {
+      const std::string& file = angle == "2" ? observer_2deg : observer_10deg;
       const Xyz white = white_point(light, Observer::load(file, grid));
       const Chromaticity xy = chromaticity(white);
       const auto reference = [&](char symbol, const char* kind) {
-        return row.number(symbol + std::string(angle) + kind);
+        return row.number(symbol + angle + kind);
       };
       EXPECT_NEAR(white.X, reference('X', "_calc"), printed_xyz) << name << ' ' << angle << " deg";
       EXPECT_NEAR(white.Z, reference('Z', "_calc"), printed_xyz) << name << ' ' << angle << " deg";
@@ -215,6 +216,14 @@ TEST(Ciede2000, IsZeroForEqualColoursAndSymmetricForOthers) {
     EXPECT_GT(ciede2000(one, two), 0.0);
     EXPECT_NEAR(ciede2000(one, two), ciede2000(two, one), rounding);
   }
+}
+
+TEST(Ciede2000, IsTheSameForAColourAndItsMirrorImageOnTheOtherSideOfGrey) {
+  // The stretch by 1 + (1 - root) / 2 goes to 3/2 at low chroma: of 0.001 it makes 0.0015.
+  constexpr double rounding = 1e-9;
+  EXPECT_NEAR(ciede2000({50, 0.001, 0}, {50, 0, 0}), 0.0015, 1e-6);
+  EXPECT_NEAR(ciede2000({50, 0.001, 0}, {50, 0, 0}), ciede2000({50, -0.001, 0}, {50, 0, 0}),
+              rounding);
 }
 
 TEST(Ciede2000, OfGreysIsTheWeightedDifferenceOfLightness) {

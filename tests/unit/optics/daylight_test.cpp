@@ -45,7 +45,7 @@ TEST(Daylight, GetsBluerWithItsTemperatureAcrossTheJointOfItsBranches) {
   const DaylightComponents components = DaylightComponents::load(d_series, grid);
   const Observer observer = Observer::load(fixtures + "observers/cie_1931_2deg.csv", grid);
   double warmer = 1.0;
-  for (double cct_k = 4000.0; cct_k <= 25000.0; cct_k += 250.0) {
+  for (int cct_k = 4000; cct_k <= 25000; cct_k += 250) {
     const double x = chromaticity(white_point(daylight(cct_k, components), observer)).x;
     EXPECT_LT(x, warmer) << cct_k << " K";
     warmer = x;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -97,7 +98,7 @@ TEST(FresnelPolarised, IsTotalBeyondTheCriticalAngle) {
 TEST(FresnelReflectance, GrowsWithTheAngleOnADielectricAboveAir) {
   for (const double n : {1.33, 1.5, 1.567, 1.8}) {
     double before = fresnel_reflectance(1.0, n);
-    for (double angle_deg = 1.0; angle_deg <= 90.0; angle_deg += 1.0) {
+    for (int angle_deg = 1; angle_deg <= 90; ++angle_deg) {
       const double rho = fresnel_reflectance(std::max(cosine(angle_deg), 0.0), n);
       EXPECT_GT(rho, before) << "n = " << n << " at " << angle_deg << " deg";
       before = rho;

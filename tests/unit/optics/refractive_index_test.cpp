@@ -1,5 +1,6 @@
 #include "emulator/optics/refractive_index.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -285,8 +286,8 @@ const std::string cauchy =
 const std::string table_k = "  - type: tabulated k\n    data: |\n      0.5 0.1\n      0.9 0.5\n";
 
 TEST(RefractiveIndexBlocks, GiveNAndKInEitherOrderWhereBothCover) {
-  for (const std::string& data : {"DATA:\n" + cauchy + table_k, "DATA:\n" + table_k + cauchy}) {
-    const RefractiveIndex index = loaded(data);
+  for (const std::string& blocks : {cauchy + table_k, table_k + cauchy}) {
+    const RefractiveIndex index = loaded("DATA:\n" + blocks);
     EXPECT_EQ(index.first(), nanometres(500));
     EXPECT_EQ(index.last(), nanometres(700));
     EXPECT_DOUBLE_EQ(index.at(nanometres(600)).real(), 1.5);
@@ -317,13 +318,13 @@ TEST(RefractiveIndexBlocks, MustBeThere) {
 }
 
 TEST(RefractiveIndexBlocks, MustBeOfAKnownType) {
-  for (const std::string type :
-       {"formula 10", "formula A", "formula", "tabulated n2", "Tabulated n"}) {
-    EXPECT_EQ(load_error("DATA:\n  - type: " + type + "\n"),
-              "a.yml:2:11: DATA[0].type: expected one of tabulated nk, tabulated n, tabulated k, "
-              "formula 1, formula 2, formula 3, formula 4, formula 5, formula 6, formula 7, "
-              "formula 8, formula 9, found '" +
-                  type + "'");
+  for (const char* type : {"formula 10", "formula A", "formula", "tabulated n2", "Tabulated n"}) {
+    EXPECT_EQ(load_error(fmt::format("DATA:\n  - type: {}\n", type)),
+              fmt::format(
+                  "a.yml:2:11: DATA[0].type: expected one of tabulated nk, tabulated n, tabulated "
+                  "k, formula 1, formula 2, formula 3, formula 4, formula 5, formula 6, formula 7, "
+                  "formula 8, formula 9, found '{}'",
+                  type));
   }
 }
 
@@ -349,11 +350,12 @@ TEST(RefractiveIndexFormula, PlacesWhatIsMissingOrWrong) {
             "a.yml:4:19: DATA[0].coefficients: expected 1 to 4 coefficients, found '1 2 3 4 5'");
   EXPECT_EQ(load_error(head + range + "    coefficients: 1 x\n"),
             "a.yml:4:19: DATA[0].coefficients: expected numbers, found 'x'");
-  for (const std::string wrong : {"0.7 0.4", "0.4", "0 0.7", "0.4 0.5 0.6"}) {
-    EXPECT_EQ(load_error(head + "    wavelength_range: " + wrong + "\n    coefficients: 1\n"),
-              "a.yml:3:23: DATA[0].wavelength_range: expected two wavelengths, 0 < first < last, "
-              "found '" +
-                  wrong + "'");
+  for (const char* wrong : {"0.7 0.4", "0.4", "0 0.7", "0.4 0.5 0.6"}) {
+    EXPECT_EQ(
+        load_error(fmt::format("{}    wavelength_range: {}\n    coefficients: 1\n", head, wrong)),
+        fmt::format("a.yml:3:23: DATA[0].wavelength_range: expected two wavelengths, "
+                    "0 < first < last, found '{}'",
+                    wrong));
   }
 }
 

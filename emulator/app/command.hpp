@@ -1,0 +1,34 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "emulator/core/catalog.hpp"
+
+namespace gonio::app {
+
+/// What a program's exit says.
+enum ExitStatus { done = 0, does_not_conform = 1, bad_input = 2, environment_failed = 3 };
+
+/// Options that every command has.
+struct CommonOptions {
+  std::optional<std::string> data_dir;
+
+  [[nodiscard]] Catalog catalog() const { return Catalog::standard_places(data_dir); }
+};
+
+/// Each adds its command to the program; the command's work is its callback.
+void add_measure_command(CLI::App& program, const CommonOptions& common);
+void add_list_command(CLI::App& program, const CommonOptions& common);
+void add_glass_command(CLI::App& program, const CommonOptions& common);
+
+/// `--format text|json|csv`.
+void add_format_option(CLI::App& command, std::string& format);
+
+/// Writes to standard output. @throws std::system_error  if that fails, e.g. on a full disk.
+void print(std::string_view text);
+
+}  // namespace gonio::app

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "emulator/app/command.hpp"
+#include "emulator/core/yaml_map.hpp"
+
+namespace gonio::app {
+
+namespace {
+
+struct Options {
+  std::string what;
+  std::string format = "text";
+};
+
+struct Row {
+  std::string id, title, file;
+};
+
+Row read_row(const Catalog::Entry& entry) {
+  return YamlNode::load(entry.file).read_map([&](YamlMap& map) {
+    map.ignore_others();
+    return Row{entry.id, map.required("title").text(), entry.file.string()};
+  });
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\n") == std::string::npos) {
+    return text;
+  }
+  std::string quoted = "\"";
+  for (const char c : text) {
+    quoted += c == '"' ? "\"\"" : std::string(1, c);
+  }
+  return quoted + "\"";
+}
+
+std::string table(const std::vector<Row>& rows, const Options& options) {
+  std::string text = options.format == "csv" ? "id,title,file\n" : "";
+  std::size_t width = 0;
+  nlohmann::ordered_json list = nlohmann::ordered_json::array();
+  for (const Row& row : rows) {
+    width = std::max(width, row.id.size());
+    list.push_back({{"id", row.id}, {"title", row.title}, {"file", row.file}});
+  }
+  if (options.format == "json") {
+    return nlohmann::ordered_json{{"schema", "gonio/list/1"}, {options.what, list}}.dump(1) + "\n";
+  }
+  for (const Row& row : rows) {
+    text += options.format == "csv"
+                ? fmt::format("{},{},{}\n", row.id, csv_cell(row.title), csv_cell(row.file))
+                : fmt::format("{:<{}}  {}\n", row.id, width, row.title);
+  }
+  return text;
+}
+
+void run(const Options& options, const CommonOptions& common) {
+  const Catalog::Kind kind = options.what == "standards" ? Catalog::Kind::standard
+                             : options.what == "samples" ? Catalog::Kind::sample
+                                                         : Catalog::Kind::instrument;
+  std::vector<Row> rows;
+  for (const Catalog::Entry& entry : common.catalog().list(kind)) {
+    rows.push_back(read_row(entry));
+  }
+  print(table(rows, options));
+}
+
+}  // namespace
+
+void add_list_command(CLI::App& program, const CommonOptions& common) {
+  CLI::App* command = program.add_subcommand("list", "What there is to measure, and to measure by");
+  const auto options = std::make_shared<Options>();
+  command->add_option("what", options->what, "standards, samples or instruments")
+      ->required()
+      ->check(CLI::IsMember({"standards", "samples", "instruments"}));
+  add_format_option(*command, options->format);
+  command->footer("Example: gonio list standards");
+  command->callback([options, &common] { run(*options, common); });
+}
+
+}  // namespace gonio::app

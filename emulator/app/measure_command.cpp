@@ -1,0 +1,181 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <memory>
+#include <stdexcept>
+
+#include "emulator/app/command.hpp"
+#include "emulator/core/progress.hpp"
+#include "emulator/core/quantity.hpp"
+#include "emulator/core/text_file.hpp"
+#include "emulator/integration/aperture_integrator.hpp"
+#include "emulator/integration/patch_integrator.hpp"
+#include "emulator/optics/refractive_index.hpp"
+#include "emulator/procedure/measure.hpp"
+#include "reports/measurement_report.hpp"
+
+namespace gonio::app {
+
+namespace {
+
+struct Options {
+  std::vector<std::string> samples;
+  std::string standard = "iso_2813/2014";
+  std::optional<std::string> instrument;
+  std::vector<std::string> geometries;
+  std::string integrator = "aperture";
+  int patches = 256;
+  double tolerance = 1e-4;
+  std::string tilt = "0 deg";
+  std::optional<std::string> reference_glass;
+  std::string wavelengths = "380:780:5";
+  std::string format = "text";
+  std::optional<std::string> spectrum;
+};
+
+/// `first:last:step` in nm.
+WavelengthGrid parse_wavelengths(const std::string& text) {
+  std::vector<double> parts;
+  for (const std::string& part : CLI::detail::split(text, ':')) {
+    parts.push_back(parse_quantity(part, Dimension::number).value_or(-1.0));
+  }
+  const bool is_grid =
+      parts.size() == 3 && parts[0] > 0.0 && parts[1] >= parts[0] && parts[2] > 0.0;
+  const double steps = is_grid ? (parts[1] - parts[0]) / parts[2] : 0.0;
+  constexpr double most_steps = 100'000.0;
+  if (!is_grid || steps > most_steps || std::abs(steps - std::round(steps)) > 1e-6) {
+    throw std::invalid_argument(fmt::format(
+        "--wavelengths: expected first:last:step in nm, a whole number of steps, found '{}'",
+        text));
+  }
+  return {nanometres(parts[0]), nanometres(parts[2]), Eigen::Index(std::round(steps)) + 1};
+}
+
+Angle parse_tilt(const std::string& text) {
+  const auto radian = parse_quantity(text, Dimension::angle);
+  if (!radian || std::abs(radians(*radian).degrees()) > 45.0) {
+    throw std::invalid_argument(fmt::format(
+        "--tilt: expected an angle (deg, rad, mrad) in [-45, 45] deg, found '{}'", text));
+  }
+  return radians(*radian);
+}
+
+std::shared_ptr<const FluxIntegrator> make_integrator(const Options& options) {
+  if (options.integrator == "aperture") {
+    return std::make_shared<ApertureIntegrator>();
+  }
+  if (options.patches < 4 || options.patches % 4 != 0 || options.patches > 4096) {
+    throw std::invalid_argument(fmt::format(
+        "--patches: expected a multiple of 4 in [4, 4096], found '{}'", options.patches));
+  }
+  return std::make_shared<PatchIntegrator>(options.patches);
+}
+
+std::string describe_reference(const Options& options, const Scale& scale) {
+  if (scale.reference == Scale::Reference::incident_flux) {
+    return fmt::format("scale {:g} x reflected / incident flux", scale.value.nominal);
+  }
+  if (options.reference_glass) {
+    return fmt::format("reference glass of {}, dispersive", *options.reference_glass);
+  }
+  return fmt::format("reference glass n = {:g} at all wavelengths",
+                     scale.refractive_index->nominal);
+}
+
+void warn_of_missed_tolerance(const std::vector<Measurement>& measurements, double tolerance) {
+  for (const Measurement& measurement : measurements) {
+    for (const GeometryResult& result : measurement.geometries) {
+      if (result.reading.quadrature_error > tolerance) {
+        fmt::print(
+            stderr,
+            "gonio: {} at {}: the integrator's error is {:.1e}, more than the {:.1e} asked for\n",
+            measurement.sample, result.id, result.reading.quadrature_error, tolerance);
+      }
+    }
+  }
+}
+
+void run(const Options& options, const CommonOptions& common) {
+  const Catalog catalog = common.catalog();
+  const WavelengthGrid grid = parse_wavelengths(options.wavelengths);
+  const MeasureOptions measure_options{.geometries = options.geometries,
+                                       .tolerance = options.tolerance,
+                                       .tilt = parse_tilt(options.tilt)};
+  const Instrument instrument =
+      options.instrument
+          ? load_instrument(catalog.find(Catalog::Kind::instrument, *options.instrument), catalog)
+          : nominal_instrument(
+                load_standard(catalog.find(Catalog::Kind::standard, options.standard)));
+  const Eigen::ArrayXcd reference_index =
+      options.reference_glass ? RefractiveIndex::load(*options.reference_glass).sample(grid)
+                              : Eigen::ArrayXcd();
+  const Glossmeter glossmeter(instrument, grid, make_integrator(options), reference_index);
+  const Observer observer = Observer::load(catalog.fixture("observers/cie_1931_2deg.csv"), grid);
+  std::vector<Sample> samples;
+  for (const std::string& sample : options.samples) {
+    samples.push_back(load_sample(catalog.find(Catalog::Kind::sample, sample), grid));
+  }
+
+  std::vector<Measurement> measurements;
+  {
+    Progress progress(samples.size(), "samples");
+    measurements =
+        measure_all(samples, glossmeter, observer, measure_options, [&] { progress.advance(); });
+  }
+  const MeasurementHeader header{
+      .standard = instrument.standard,
+      .instrument = instrument.title,
+      .integrator = options.integrator,
+      .reference = describe_reference(options, instrument.standard.scale),
+      .tolerance = options.tolerance,
+      .grid = grid};
+  if (options.spectrum) {
+    write_text_file(*options.spectrum, spectra_csv(header, measurements));
+  }
+  print(options.format == "json" ? measurement_json(header, measurements)
+        : options.format == "csv"
+            ? measurement_csv(header, measurements)
+            : measurement_text(header, measurements, isatty(STDOUT_FILENO) != 0));
+  if (options.integrator == "aperture") {
+    warn_of_missed_tolerance(measurements, options.tolerance);
+  }
+}
+
+}  // namespace
+
+void add_measure_command(CLI::App& program, const CommonOptions& common) {
+  CLI::App* command = program.add_subcommand(
+      "measure", "Gloss and spectral reflectance of samples by a standard or an instrument");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--sample", options->samples, "Sample files or ids, see `gonio list samples`")
+      ->required();
+  auto* standard = command
+                       ->add_option("--standard", options->standard,
+                                    "Standard whose nominal geometries are measured")
+                       ->capture_default_str();
+  command->add_option("--instrument", options->instrument, "Instrument as built: a file or an id")
+      ->excludes(standard);
+  command->add_option("--geometry", options->geometries, "Geometries, e.g. 60; all if not given");
+  command->add_option("--integrator", options->integrator, "How fluxes are integrated")
+      ->check(CLI::IsMember({"aperture", "patches"}))
+      ->capture_default_str();
+  command->add_option("--patches", options->patches, "N of the 3 N^2 patches of the hemisphere")
+      ->capture_default_str();
+  command->add_option("--tolerance", options->tolerance, "Of the aperture integrator, in GU")
+      ->check(CLI::Range(1e-12, 1e3))
+      ->capture_default_str();
+  command->add_option("--tilt", options->tilt, "Of the sample in the plane of measurement")
+      ->capture_default_str();
+  command->add_option("--reference-glass", options->reference_glass,
+                      "Refractive index file of a dispersive reference, which then reads 100");
+  command->add_option("--wavelengths", options->wavelengths, "first:last:step in nm")
+      ->capture_default_str();
+  add_format_option(*command, options->format);
+  command->add_option("--spectrum", options->spectrum, "CSV file for the spectral reflectances");
+  command->footer(
+      "Example: gonio measure --sample copper_polished --sample black_glass_n1567 --geometry 60\n"
+      "         gonio measure --sample my_paint.yaml --instrument triangle_gloss --format json");
+  command->callback([options, &common] { run(*options, common); });
+}
+
+}  // namespace gonio::app

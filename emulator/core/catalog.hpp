@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gonio {
+
+/// The folders with gonio's data, in the order in which they are searched.
+class Catalog {
+ public:
+  enum class Kind { standard, sample, instrument };
+
+  struct Entry {
+    std::string id;
+    std::filesystem::path file;
+  };
+
+  /// @param roots  each has folders `standards` and `fixtures`.
+  explicit Catalog(std::vector<std::filesystem::path> roots) : roots_(std::move(roots)) {}
+
+  /// `data_dir` if given, $GONIO_DATA if set, share/gonio beside the folder of the running program,
+  /// and the source tree that holds the running program, as far as they exist.
+  /// @throws InputError  if `data_dir` or $GONIO_DATA is not such a folder.
+  [[nodiscard]] static Catalog standard_places(
+      const std::optional<std::filesystem::path>& data_dir = {});
+
+  /// The file of an id, e.g. "iso_2813/2014" or "copper_polished"; an existing path stands for
+  /// itself.
+  /// @throws InputError  that lists the ids there are, if there is none.
+  [[nodiscard]] std::filesystem::path find(Kind kind, const std::string& id_or_path) const;
+  /// All entries, by id; the first root that has an id wins.
+  [[nodiscard]] std::vector<Entry> list(Kind kind) const;
+  /// A file of the fixtures, e.g. "observers/cie_1931_2deg.csv".
+  /// @throws InputError  if no root has it.
+  [[nodiscard]] std::filesystem::path fixture(const std::filesystem::path& below) const;
+
+ private:
+  std::vector<std::filesystem::path> roots_;
+};
+
+}  // namespace gonio

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "emulator/core/angle.hpp"
+#include "emulator/core/catalog.hpp"
+#include "emulator/core/table.hpp"
+#include "emulator/integration/aperture.hpp"
+#include "emulator/standard/standard.hpp"
+
+namespace gonio {
+
+/// The size of an aperture as built; nothing where it is as the standard says.
+struct OpeningAsBuilt {
+  std::optional<Angle> in_plane = {}, perpendicular = {};  ///< of a rectangle
+  std::optional<Angle> diameter = {};                      ///< of a circle
+};
+
+/// One geometry as built; nothing where it is as the standard says.
+struct GeometryAsBuilt {
+  std::optional<Angle> theta_i = {}, theta_r = {};
+  OpeningAsBuilt source = {}, receptor = {};
+  SourceMark mark = {};
+};
+
+/// An instrument: the standard it was built to, and how it deviates from it.
+struct Instrument {
+  std::filesystem::path file;  ///< empty for the nominal instrument of a standard
+  std::string id;
+  std::string title;
+  std::string notes = {};
+  Standard standard;
+  std::map<std::string, GeometryAsBuilt> as_built = {};  ///< by id of the standard's geometry
+  SpectralTable source;                                  ///< spectral power distribution
+  SpectralTable responsivity;
+  std::optional<double> repeatability_gu = {};  ///< standard deviation of readings
+
+  /// The apertures of one geometry, in the frame of a sample that lies flat.
+  /// @throws InputError         if the standard leaves a size unknown that is not stated as built.
+  /// @throws std::out_of_range  if the standard has no such geometry.
+  [[nodiscard]] MeasuringGeometry geometry(const std::string& geometry_id) const;
+};
+
+/// The instrument that has the nominal values of a standard.
+[[nodiscard]] Instrument nominal_instrument(const Standard& standard);
+
+/// Reads a file of schema gonio/instrument/1. @param catalog  where `built_to` is looked up.
+/// @throws InputError  for anything that is not as the schema says.
+[[nodiscard]] Instrument load_instrument(const std::filesystem::path& path, const Catalog& catalog);
+
+}  // namespace gonio

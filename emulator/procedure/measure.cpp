@@ -1,0 +1,103 @@
+#include "emulator/procedure/measure.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/parallel_for.h>
+
+#include <map>
+#include <mutex>
+#include <stdexcept>
+
+namespace gonio {
+
+namespace {
+
+std::vector<std::string> geometries_asked_for(const Standard& standard,
+                                              const MeasureOptions& options) {
+  std::vector<std::string> known;
+  for (const GeometryLimits& geometry : standard.geometries) {
+    known.push_back(geometry.id);
+  }
+  for (const std::string& id : options.geometries) {
+    if (std::find(known.begin(), known.end(), id) == known.end()) {
+      throw std::invalid_argument(fmt::format("{} has the geometries {}, not '{}'", standard.id,
+                                              fmt::join(known, ", "), id));
+    }
+  }
+  return options.geometries.empty() ? known : options.geometries;
+}
+
+std::optional<ReflectedColour> reflected_colour(const GlossReading& reading,
+                                                const Glossmeter& glossmeter,
+                                                const Observer& observer) {
+  const Xyz xyz = tristimulus(reading.reflectance, glossmeter.source(), observer);
+  if (!(xyz.X + xyz.Y + xyz.Z > 0.0)) {
+    return std::nullopt;
+  }
+  return ReflectedColour{.xyz = xyz,
+                         .xy = chromaticity(xyz),
+                         .lab = cielab(xyz, white_point(glossmeter.source(), observer))};
+}
+
+HazeResult haze_by(const HazeRule& rule, const std::map<std::string, double>& gloss) {
+  HazeResult result{.id = rule.id, .value = {}};
+  const auto from = gloss.find(rule.from);
+  const auto minus = gloss.find(rule.minus);
+  if (from != gloss.end() && minus != gloss.end() &&
+      (!rule.only_above || from->second > *rule.only_above)) {
+    result.value = from->second - minus->second;
+  }
+  return result;
+}
+
+}  // namespace
+
+const GeometryResult* Measurement::find(const std::string& geometry_id) const {
+  for (const GeometryResult& result : geometries) {
+    if (result.id == geometry_id) {
+      return &result;
+    }
+  }
+  return nullptr;
+}
+
+Measurement measure(const Sample& sample, const Glossmeter& glossmeter, const Observer& observer,
+                    const MeasureOptions& options) {
+  const Standard& standard = glossmeter.instrument().standard;
+  Measurement measurement{.sample = sample.id, .sample_title = sample.title};
+  std::map<std::string, double> gloss;
+  for (const std::string& id : geometries_asked_for(standard, options)) {
+    const GeometryLimits& limits = standard.geometry(id);
+    const GlossReading reading =
+        glossmeter.read(sample.surface, id, options.tolerance, options.tilt);
+    gloss.emplace(id, reading.gloss);
+    measurement.geometries.push_back({.id = id,
+                                      .theta_i = limits.theta_i.nominal,
+                                      .reading = reading,
+                                      .colour = reflected_colour(reading, glossmeter, observer),
+                                      .evidence = limits.evidence()});
+  }
+  measurement.selected_geometry = standard.select_geometry(gloss);
+  for (const HazeRule& rule : standard.haze) {
+    measurement.haze.push_back(haze_by(rule, gloss));
+  }
+  return measurement;
+}
+
+std::vector<Measurement> measure_all(const std::vector<Sample>& samples,
+                                     const Glossmeter& glossmeter, const Observer& observer,
+                                     const MeasureOptions& options,
+                                     const std::function<void()>& advance) {
+  std::vector<Measurement> results(samples.size());
+  std::mutex mutex;
+  tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
+    results[i] = measure(samples[i], glossmeter, observer, options);
+    if (advance) {
+      const std::scoped_lock lock(mutex);
+      advance();
+    }
+  });
+  return results;
+}
+
+}  // namespace gonio

@@ -1,0 +1,69 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "emulator/instrument/glossmeter.hpp"
+#include "emulator/optics/colorimetry.hpp"
+#include "emulator/surface/sample.hpp"
+
+namespace gonio {
+
+/// How a measurement is done.
+struct MeasureOptions {
+  std::vector<std::string> geometries = {};  ///< ids; empty for all of the standard
+  double tolerance = 1e-4;                   ///< of the integrator, in the unit of the scale
+  Angle tilt = {};                           ///< of the sample in the plane of measurement
+};
+
+/// The colour of the reflected light under the instrument's source, for the 2 deg observer of 1931;
+/// white is what a perfect mirror reflects.
+struct ReflectedColour {
+  Xyz xyz;
+  Chromaticity xy;
+  Lab lab;
+};
+
+struct GeometryResult {
+  std::string id;
+  Angle theta_i;  ///< nominal
+  GlossReading reading;
+  std::optional<ReflectedColour> colour;  ///< nothing where no light arrives
+  Evidence evidence;                      ///< weakest of the numbers that the geometry rests on
+};
+
+struct HazeResult {
+  std::string id;
+  std::optional<double> value;  ///< nothing where the standard does not define it
+};
+
+/// A sample measured by the procedure of a standard.
+struct Measurement {
+  std::string sample;
+  std::string sample_title;
+  std::vector<GeometryResult> geometries = {};
+  std::optional<std::string> selected_geometry = {};
+  std::vector<HazeResult> haze = {};
+
+  /// @return  the result of a geometry, or null.
+  [[nodiscard]] const GeometryResult* find(const std::string& geometry_id) const;
+};
+
+/// Measures a sample in the geometries asked for.
+/// @throws InputError             for an aperture of unknown size.
+/// @throws std::invalid_argument  for a geometry that the standard does not have.
+[[nodiscard]] Measurement measure(const Sample& sample, const Glossmeter& glossmeter,
+                                  const Observer& observer, const MeasureOptions& options);
+
+/// Measures many samples, on all cores; results in the order of the samples.
+/// @param advance  called once after each sample, from any thread, one at a time.
+[[nodiscard]] std::vector<Measurement> measure_all(const std::vector<Sample>& samples,
+                                                   const Glossmeter& glossmeter,
+                                                   const Observer& observer,
+                                                   const MeasureOptions& options,
+                                                   const std::function<void()>& advance = {});
+
+}  // namespace gonio

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "emulator/core/wavelength_grid.hpp"
+#include "emulator/surface/surface.hpp"
+
+namespace gonio {
+
+/// A sample from a file: what it is called, and its surface on a wavelength grid.
+struct Sample {
+  std::filesystem::path file;
+  std::string id = {};
+  std::string title = {};
+  std::string notes = {};
+  Surface surface;
+};
+
+/// Reads a file of schema gonio/sample/1.
+/// @param grid  the wavelengths of the measurement; every spectrum of the sample must cover it.
+/// @throws InputError  for anything that is not as the schema says.
+[[nodiscard]] Sample load_sample(const std::filesystem::path& path, const WavelengthGrid& grid);
+
+}  // namespace gonio

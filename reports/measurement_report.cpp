@@ -1,0 +1,201 @@
+#include "reports/measurement_report.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+namespace gonio {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+std::vector<double> to_vector(const Eigen::ArrayXd& values) {
+  return {values.begin(), values.end()};
+}
+
+/// The value as the standard has it reported, e.g. to the nearest unit.
+std::string reported(double gloss, const Standard& standard) {
+  if (!standard.rounding) {
+    return fmt::format("{:.1f}", gloss);
+  }
+  const double step = standard.rounding->nominal;
+  const int decimals = std::max(0, int(std::ceil(-std::log10(step) - 1e-9)));
+  return fmt::format("{:.{}f}", std::round(gloss / step) * step, decimals);
+}
+
+std::string lab_text(const std::optional<ReflectedColour>& colour) {
+  return colour
+             ? fmt::format("{:8.2f} {:7.2f} {:7.2f}", colour->lab.L, colour->lab.a, colour->lab.b)
+             : fmt::format("{:>8} {:>7} {:>7}", "-", "-", "-");
+}
+
+void append_row(std::string& text, const MeasurementHeader& header, const Measurement& measurement,
+                const GeometryResult& result, bool styled, std::size_t width) {
+  const bool selected = measurement.selected_geometry == result.id;
+  const std::string row = fmt::format(
+      "{:<{}}  {:>8}  {:>8} {:<2}{:>14.4f}  {:>8.1e}  {:>10.6f}  {}", measurement.sample, width,
+      result.id, reported(result.reading.gloss, header.standard), selected ? "<" : "",
+      result.reading.gloss, result.reading.quadrature_error, result.reading.luminous_reflectance,
+      lab_text(result.colour));
+  text += styled && selected ? "\033[1m" + row + "\033[0m\n" : row + "\n";
+}
+
+/// What a reader must know of the table.
+std::string footnotes(const MeasurementHeader& header,
+                      const std::vector<Measurement>& measurements) {
+  std::string text;
+  std::vector<std::string> informative;
+  bool any_selected = false;
+  for (const Measurement& measurement : measurements) {
+    any_selected = any_selected || measurement.selected_geometry.has_value();
+    for (const GeometryResult& result : measurement.geometries) {
+      if (result.evidence.is_informative() &&
+          std::find(informative.begin(), informative.end(), result.id) == informative.end()) {
+        informative.push_back(result.id);
+      }
+    }
+    for (const HazeResult& haze : measurement.haze) {
+      text +=
+          fmt::format("{}: {} {}\n", measurement.sample, haze.id,
+                      haze.value ? fmt::format("{:.1f} {}", *haze.value, header.standard.scale.unit)
+                                 : "not defined for it by the standard");
+    }
+  }
+  if (any_selected) {
+    text += "<: the geometry that the standard selects\n";
+  }
+  if (!informative.empty()) {
+    text += fmt::format("informative: numbers of geometry {} are known from memory only\n",
+                        fmt::join(informative, ", "));
+  }
+  return text;
+}
+
+ordered_json colour_json(const ReflectedColour& colour) {
+  return {{"X", colour.xyz.X}, {"Y", colour.xyz.Y}, {"Z", colour.xyz.Z}, {"x", colour.xy.x},
+          {"y", colour.xy.y},  {"L", colour.lab.L}, {"a", colour.lab.a}, {"b", colour.lab.b}};
+}
+
+ordered_json geometry_json(const MeasurementHeader& header, const GeometryResult& result) {
+  ordered_json json{{"id", result.id},
+                    {"theta_i_deg", result.theta_i.degrees()},
+                    {"gloss_gu", result.reading.gloss},
+                    {"quadrature_error_gu", result.reading.quadrature_error},
+                    {"luminous_reflectance", result.reading.luminous_reflectance},
+                    {"evidence", result.evidence.level}};
+  json["colour"] = result.colour ? colour_json(*result.colour) : ordered_json(nullptr);
+  json["spectrum"] = {{"wavelength_nm", to_vector(header.grid.nanometres())},
+                      {"reflectance", to_vector(result.reading.reflectance)}};
+  return json;
+}
+
+ordered_json measurement_object(const MeasurementHeader& header, const Measurement& measurement) {
+  ordered_json json{{"schema", "gonio/measurement/1"}, {"standard", header.standard.id},
+                    {"instrument", header.instrument}, {"integrator", header.integrator},
+                    {"reference", header.reference},   {"unit", header.standard.scale.unit},
+                    {"sample", measurement.sample}};
+  json["selected_geometry"] = measurement.selected_geometry
+                                  ? ordered_json(*measurement.selected_geometry)
+                                  : ordered_json(nullptr);
+  json["geometries"] = ordered_json::array();
+  for (const GeometryResult& result : measurement.geometries) {
+    json["geometries"].push_back(geometry_json(header, result));
+  }
+  if (!measurement.haze.empty()) {
+    json["haze"] = ordered_json::array();
+    for (const HazeResult& haze : measurement.haze) {
+      json["haze"].push_back(
+          {{"id", haze.id}, {"value", haze.value ? ordered_json(*haze.value) : nullptr}});
+    }
+  }
+  return json;
+}
+
+}  // namespace
+
+std::string measurement_text(const MeasurementHeader& header,
+                             const std::vector<Measurement>& measurements, bool styled) {
+  const std::string& unit = header.standard.scale.unit;
+  std::string text =
+      fmt::format("{} - {}\n{}; {} integrator; {}\n\n", header.standard.id, header.standard.title,
+                  header.instrument, header.integrator, header.reference);
+  std::size_t width = 6;
+  for (const Measurement& measurement : measurements) {
+    width = std::max(width, measurement.sample.size());
+  }
+  text += fmt::format("{:<{}}  {:>8}  {:>8} {:<2}{:>14}  {:>8}  {:>10}  {:>8} {:>7} {:>7}\n",
+                      "sample", width, "geometry", unit, "", "computed " + unit, "+-", "reflect.",
+                      "L*", "a*", "b*");
+  for (const Measurement& measurement : measurements) {
+    for (const GeometryResult& result : measurement.geometries) {
+      append_row(text, header, measurement, result, styled, width);
+    }
+  }
+  const std::string notes = footnotes(header, measurements);
+  return notes.empty() ? text : text + "\n" + notes;
+}
+
+std::string measurement_json(const MeasurementHeader& header,
+                             const std::vector<Measurement>& measurements) {
+  constexpr int indent = 1;
+  if (measurements.size() == 1) {
+    return measurement_object(header, measurements.front()).dump(indent) + "\n";
+  }
+  ordered_json all{{"schema", "gonio/measurements/1"}, {"measurements", ordered_json::array()}};
+  for (const Measurement& measurement : measurements) {
+    all["measurements"].push_back(measurement_object(header, measurement));
+  }
+  return all.dump(indent) + "\n";
+}
+
+std::string measurement_csv(const MeasurementHeader& header,
+                            const std::vector<Measurement>& measurements) {
+  std::string text =
+      "standard,sample,geometry,theta_i_deg,gloss_gu,quadrature_error_gu,luminous_reflectance,"
+      "selected,X,Y,Z,L,a,b\n";
+  for (const Measurement& measurement : measurements) {
+    for (const GeometryResult& result : measurement.geometries) {
+      const GlossReading& reading = result.reading;
+      text += fmt::format("{},{},{},{},{},{},{},{},", header.standard.id, measurement.sample,
+                          result.id, result.theta_i.degrees(), reading.gloss,
+                          reading.quadrature_error, reading.luminous_reflectance,
+                          measurement.selected_geometry == result.id ? 1 : 0);
+      if (result.colour) {
+        const ReflectedColour& c = *result.colour;
+        text += fmt::format("{},{},{},{},{},{}\n", c.xyz.X, c.xyz.Y, c.xyz.Z, c.lab.L, c.lab.a,
+                            c.lab.b);
+      } else {
+        text += ",,,,,\n";
+      }
+    }
+  }
+  return text;
+}
+
+std::string spectra_csv(const MeasurementHeader& header,
+                        const std::vector<Measurement>& measurements) {
+  std::string text = fmt::format("# spectral reflectance into the receptor, {}, {}\nwavelength_nm",
+                                 header.standard.id, header.instrument);
+  for (const Measurement& measurement : measurements) {
+    for (const GeometryResult& result : measurement.geometries) {
+      text += fmt::format(",{} {}", measurement.sample, result.id);
+    }
+  }
+  text += "\n";
+  for (Eigen::Index l = 0; l < header.grid.size(); ++l) {
+    text += fmt::format("{}", header.grid.nanometres()(l));
+    for (const Measurement& measurement : measurements) {
+      for (const GeometryResult& result : measurement.geometries) {
+        text += fmt::format(",{}", result.reading.reflectance(l));
+      }
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+}  // namespace gonio
