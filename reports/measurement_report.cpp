@@ -27,10 +27,13 @@ std::string reported(double gloss, const Standard& standard) {
   return fmt::format("{:.{}f}", std::round(gloss / step) * step, decimals);
 }
 
+/// Rounded to two decimals, without the sign of a zero.
+double two_decimals(double value) { return std::round(value * 100.0) / 100.0 + 0.0; }
+
 std::string lab_text(const std::optional<ReflectedColour>& colour) {
-  return colour
-             ? fmt::format("{:8.2f} {:7.2f} {:7.2f}", colour->lab.L, colour->lab.a, colour->lab.b)
-             : fmt::format("{:>8} {:>7} {:>7}", "-", "-", "-");
+  return colour ? fmt::format("{:8.2f} {:7.2f} {:7.2f}", two_decimals(colour->lab.L),
+                              two_decimals(colour->lab.a), two_decimals(colour->lab.b))
+                : fmt::format("{:>8} {:>7} {:>7}", "-", "-", "-");
 }
 
 void append_row(std::string& text, const MeasurementHeader& header, const Measurement& measurement,
@@ -51,7 +54,13 @@ std::string footnotes(const MeasurementHeader& header,
   std::vector<std::string> informative;
   bool any_selected = false;
   for (const Measurement& measurement : measurements) {
-    any_selected = any_selected || measurement.selected_geometry.has_value();
+    if (const auto& selected = measurement.selected_geometry) {
+      any_selected = any_selected || measurement.find(*selected) != nullptr;
+      if (measurement.find(*selected) == nullptr) {
+        text += fmt::format("{}: the standard selects geometry {}, which was not asked for\n",
+                            measurement.sample, *selected);
+      }
+    }
     for (const GeometryResult& result : measurement.geometries) {
       if (result.evidence.is_informative() &&
           std::find(informative.begin(), informative.end(), result.id) == informative.end()) {
@@ -69,7 +78,7 @@ std::string footnotes(const MeasurementHeader& header,
     text += "<: the geometry that the standard selects\n";
   }
   if (!informative.empty()) {
-    text += fmt::format("informative: numbers of geometry {} are known from memory only\n",
+    text += fmt::format("informative: geometry {} rests on numbers known only from memory\n",
                         fmt::join(informative, ", "));
   }
   return text;

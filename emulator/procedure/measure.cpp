@@ -2,11 +2,12 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <tbb/parallel_for.h>
 
 #include <map>
 #include <mutex>
 #include <stdexcept>
+
+#include "emulator/procedure/parallel_for.hpp"
 
 namespace gonio {
 
@@ -90,7 +91,7 @@ std::vector<Measurement> measure_all(const std::vector<Sample>& samples,
                                      const std::function<void()>& advance) {
   std::vector<Measurement> results(samples.size());
   std::mutex mutex;
-  tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
+  parallel_for(samples.size(), [&](std::size_t i) {
     results[i] = measure(samples[i], glossmeter, observer, options);
     if (advance) {
       const std::scoped_lock lock(mutex);

@@ -1,0 +1,202 @@
+#include "emulator/integration/lobe_flux.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "emulator/integration/batch_kernels.hpp"
+#include "emulator/integration/panels.hpp"
+
+namespace gonio {
+
+namespace {
+
+using Eigen::ArrayXd;
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr std::size_t most_receptor_cells = 4000;
+constexpr std::size_t most_source_cells = 4000;
+
+/// How far breaks go, in widths of the lobe: through its tails, or where the receptor's edge cuts
+/// it.
+constexpr double to_the_edge = 1e9;
+constexpr double past_the_edge = 5.0;
+
+/// Moments of one lobe over the receptor, for light from one direction: int g T_k cos r d omega_r.
+class ReceptorIntegral {
+ public:
+  ReceptorIntegral(const Lobe& lobe, double parameter, const Aperture& receptor,
+                   const ColourSeries& series, const VectorXd& functional, const Plan& plan)
+      : lobe_(lobe),
+        parameter_(parameter),
+        region_(receptor),
+        series_(series),
+        functional_(functional),
+        plan_(plan),
+        rule_(region_, plan.p.gauss_points, plan.q.gauss_points) {}
+
+  Integral operator()(const Vector3& omega_i, double tolerance) {
+    const double cos_theta_i = omega_i.z();
+    if (cos_theta_i <= 0.0) {
+      return {.value = VectorXd::Zero(functional_.size())};
+    }
+    Breaks breaks;
+    const SlopeWidth slope = lobe_.shape->slope_width(parameter_, cos_theta_i);
+    if (const auto peak = peak_in(region_.frame(), mirrored(omega_i), slope, cos_theta_i)) {
+      breaks.add_u(region_, *peak, plan_.p, to_the_edge);
+      breaks.add_v(region_, *peak, plan_.q, to_the_edge);
+    }
+    return integrate(
+        region_, std::move(breaks.p), std::move(breaks.q),
+        [&](const Cell& cell) { return estimate(omega_i, cell); }, tolerance, most_receptor_cells);
+  }
+
+ private:
+  CellEstimate estimate(const Vector3& omega_i, const Cell& cell) {
+    nodes_.place(region_, cell, rule_);
+    const Index n = rule_.size();
+    omega_r_.resize(n);
+    x_.resize(n);
+    control_.resize(n);
+    g_.resize(n);
+    ArrayXd& value = nodes_.area;  // becomes g cos r d omega_r, but for the weights of the rule
+    kernel::tangent_directions(region_.frame(), nodes_.u, nodes_.v, omega_r_, value);
+    lobe_.shape->evaluate(parameter_, omega_i, omega_r_, g_);
+    kernel::half_angle_argument(omega_i, omega_r_, series_.scale, series_.shift, x_);
+    kernel::chebyshev_series(functional_, x_, control_);
+    value *= g_;
+    control_ *= value;
+    CellEstimate result{.value = VectorXd::Zero(functional_.size())};
+    result.set_errors(rule_, control_);
+    value *= rule_.weight;
+    kernel::add_chebyshev_moments(x_, value, result.value);
+    return result;
+  }
+
+  const Lobe& lobe_;
+  double parameter_;
+  Region region_;
+  const ColourSeries& series_;
+  const VectorXd& functional_;
+  Plan plan_;
+  SquareRule rule_;
+  CellNodes nodes_;
+  DirectionBatch omega_r_;
+  ArrayXd x_, g_, control_;
+};
+
+}  // namespace
+
+LobeFlux::LobeFlux(const Lobe& lobe, const MeasuringGeometry& geometry, const ArrayXd& weight,
+                   double tolerance, double incident)
+    : lobe_(lobe),
+      geometry_(geometry),
+      weight_(weight),
+      tolerance_(tolerance),
+      incident_(incident),
+      series_(lobe.colour, half_angle_range(geometry).low, half_angle_range(geometry).high,
+              0.02 * tolerance / incident),
+      functional_(series_.coefficient * weight.matrix()) {}
+
+Flux LobeFlux::operator()() const {
+  return lobe_.shape_parameter.size() == 0 ? with_fixed_shape(0.0) : with_changing_shape();
+}
+
+/// int cos i d omega_i over the source of the receptor's moments.
+Integral LobeFlux::moments(double parameter, double tolerance) const {
+  const Index terms = functional_.size();
+  const Region source(geometry_.source);
+  const double relative = std::clamp(tolerance / incident_, 1e-15, 1e-3);
+  const Vector3& axis = geometry_.source.frame().axis;
+  const SlopeWidth slope = lobe_.shape->slope_width(parameter, std::max(axis.z(), 0.0));
+  const Plan receptor_plan(geometry_.receptor,
+                           peak_in(geometry_.receptor.frame(), mirrored(axis), slope, axis.z()),
+                           relative);
+  ReceptorIntegral receptor(lobe_, parameter, geometry_.receptor, series_, functional_,
+                            receptor_plan);
+  const auto edges = receptor_edges(geometry_, slope);
+  const Plan plan(geometry_.source, scale_over_source(geometry_.source, edges), relative);
+  Breaks breaks;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (i < 2) {
+      breaks.add_u(source, edges[i], plan.p, past_the_edge);
+    } else {
+      breaks.add_v(source, edges[i], plan.q, past_the_edge);
+    }
+  }
+  const double inner_tolerance = 0.25 * tolerance / incident_;
+  const SquareRule rule(source, plan.p.gauss_points, plan.q.gauss_points);
+  const auto estimate = [&](const Cell& cell) {
+    CellNodes nodes;
+    nodes.place(source, cell, rule);
+    const Index n = rule.size();
+    DirectionBatch omega_i;
+    omega_i.resize(n);
+    ArrayXd& factor = nodes.area;  // becomes cos i d omega_i, but for the weights of the rule
+    kernel::tangent_directions(source.frame(), nodes.u, nodes.v, omega_i, factor);
+    ArrayXd control(n);
+    CellEstimate result{.value = VectorXd::Zero(terms + 1)};  // the last one is the inner error
+    for (Index j = 0; j < n; ++j) {
+      const Integral inner = receptor({omega_i.x(j), omega_i.y(j), omega_i.z(j)}, inner_tolerance);
+      control(j) = factor(j) * functional_.dot(inner.value);
+      const double weight = rule.weight(j) * factor(j);
+      result.value.head(terms) += weight * inner.value;
+      result.value(terms) += weight * inner.error;
+    }
+    result.set_errors(rule, control);
+    return result;
+  };
+  Integral sum = integrate(source, std::move(breaks.p), std::move(breaks.q), estimate,
+                           0.75 * tolerance, most_source_cells);
+  sum.error += sum.value(terms);
+  sum.value.conservativeResize(terms);
+  return sum;
+}
+
+Flux LobeFlux::with_fixed_shape(double parameter) const {
+  const Integral sum = moments(parameter, tolerance_);
+  return {.spectral = (series_.coefficient.transpose() * sum.value).array(),
+          .error = sum.error + std::abs(sum.value(0)) * series_.truncation.maxCoeff()};
+}
+
+/// Points of the parameter are doubled until the flux settles.
+Flux LobeFlux::with_changing_shape() const {
+  constexpr Index most_points = 65;
+  const double low = lobe_.shape_parameter.minCoeff();
+  const double high = lobe_.shape_parameter.maxCoeff();
+  const double node_tolerance = 0.3 * tolerance_;  // interpolation amplifies by less than 2
+  if (high - low <= 1e-12 * high) {
+    return with_fixed_shape(low);
+  }
+  const ArrayXd x = (2.0 * lobe_.shape_parameter - (low + high)) / (high - low);
+  std::vector<Integral> at_point;
+  Flux before;
+  for (Index n = 3;; n = 2 * n - 1) {
+    const ArrayXd point = chebyshev_points(n);
+    std::vector<Integral> now;
+    Eigen::MatrixXd at_points(functional_.size(), n);
+    double error = 0.0;
+    for (Index j = 0; j < n; ++j) {  // every second point is one of the n before
+      const double parameter = 0.5 * ((high + low) + (high - low) * point(j));
+      now.push_back(!at_point.empty() && j % 2 == 0 ? at_point[std::size_t(j / 2)]
+                                                    : moments(parameter, node_tolerance));
+      at_points.col(j) = now.back().value;
+      error = std::max(error, 2.0 * now.back().error);
+    }
+    at_point = std::move(now);
+    const Eigen::MatrixXd at_lambda = at_points * chebyshev_interpolation(n, x).transpose();
+    Flux flux{
+        .spectral = series_.coefficient.cwiseProduct(at_lambda).colwise().sum().transpose(),
+        .error = error + at_lambda.row(0).cwiseAbs().maxCoeff() * series_.truncation.maxCoeff()};
+    if (n > 3) {
+      const double change = (weight_ * (flux.spectral - before.spectral).abs()).sum();
+      flux.error += change;
+      if (change <= 0.3 * tolerance_ || n >= most_points) {
+        return flux;
+      }
+    }
+    before = flux;
+  }
+}
+
+}  // namespace gonio
