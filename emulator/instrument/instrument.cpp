@@ -59,8 +59,8 @@ Aperture build(const Frame& frame, const ApertureLimits& limits, const OpeningAs
     return limit ? limit->known().nominal
                  : ApertureSize{.value = {}, .mark = limits.diameter->mark}.known().nominal;
   };
-  return Aperture::rectangle(frame, size(opening.in_plane, limits.in_plane),
-                             size(opening.perpendicular, limits.perpendicular));
+  const Angle in_plane = size(opening.in_plane, limits.in_plane);
+  return Aperture::rectangle(frame, in_plane, size(opening.perpendicular, limits.perpendicular));
 }
 
 }  // namespace

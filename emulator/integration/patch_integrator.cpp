@@ -174,11 +174,14 @@ PatchIntegrator::PatchIntegrator(Index resolution) : resolution_(resolution) {
 Flux PatchIntegrator::reflected(const Surface& surface, const MeasuringGeometry& geometry,
                                 const ArrayXd& weight, double /*tolerance*/) const {
   Flux flux{.spectral = reflected_at(resolution_, surface, geometry)};
-  const ArrayXd coarse = reflected_at(resolution_ / 2, surface, geometry);
-  const double edges = solid_angle_error(geometry.source, resolution_) +
-                       solid_angle_error(geometry.receptor, resolution_);
-  flux.error = std::max(std::abs((weight * (flux.spectral - coarse)).sum()),
-                        edges * (weight * flux.spectral).sum());
+  const double luminous = (weight * flux.spectral).sum();
+  flux.error = solid_angle_error(geometry.receptor, resolution_) * luminous;
+  const double coarse_incident = patches_in(geometry.source, resolution_ / 2).projected.sum();
+  if (coarse_incident > 0.0) {
+    const ArrayXd coarse = reflected_at(resolution_ / 2, surface, geometry) *
+                           (incident(geometry.source) / coarse_incident);
+    flux.error = std::max(flux.error, std::abs(luminous - (weight * coarse).sum()));
+  }
   return flux;
 }
 

@@ -12,8 +12,10 @@ namespace gonio {
 /// say its layout; this one has its number. Receptor edges cut patches, so that gloss errs by
 /// percents at that number; reflectance into the whole hemisphere is good to 1e-7.
 ///
-/// The error reported is the difference to half the resolution, or what the solid angles of the
-/// patches are off from those of the apertures, whichever is larger: an estimate, not a bound.
+/// The error reported is the difference to half the resolution, or what the solid angle of the
+/// receptor's patches is off from its own, whichever is larger: an estimate, not a bound. It is
+/// relative to what the source's patches bring, since a gloss value is a ratio of fluxes from the
+/// same ones.
 /// @see [Mihalik] section 5, eq. (16), (17)
 class PatchIntegrator : public FluxIntegrator {
  public:
