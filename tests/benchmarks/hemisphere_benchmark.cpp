@@ -81,10 +81,10 @@ void compare_with(benchmark::State& state, Lobe lobe) {
 }
 
 void against_batched_lobe(benchmark::State& state) { compare_with(state, batched_lobe); }
-BENCHMARK(against_batched_lobe)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(against_batched_lobe)->Unit(benchmark::kMillisecond);
 
 void against_plain_lobe(benchmark::State& state) { compare_with(state, plain_lobe); }
-BENCHMARK(against_plain_lobe)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK(against_plain_lobe)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 

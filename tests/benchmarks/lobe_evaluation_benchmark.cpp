@@ -92,10 +92,10 @@ void evaluate(benchmark::State& state) {
 void cook_torrance(benchmark::State& state) {
   evaluate<plain_cook_torrance, kernel::beckmann_v_groove>(state);
 }
-BENCHMARK(cook_torrance)->ArgName("directions")->Arg(256)->Arg(4096)->UseRealTime();
+BENCHMARK(cook_torrance)->ArgName("directions")->Arg(256)->Arg(4096);
 
 void ggx(benchmark::State& state) { evaluate<plain_ggx, kernel::ggx_height_correlated>(state); }
-BENCHMARK(ggx)->ArgName("directions")->Arg(256)->Arg(4096)->UseRealTime();
+BENCHMARK(ggx)->ArgName("directions")->Arg(256)->Arg(4096);
 
 }  // namespace
 

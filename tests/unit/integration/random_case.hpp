@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 #include <sstream>
 #include <string>
@@ -26,19 +27,25 @@ struct RandomCase {
   [[nodiscard]] double tolerance() const { return 0.01 * tolerance_gu * standard_flux; }
 };
 
+/// What cases are drawn from: rms slopes (or alpha) and tolerances, both uniform in the logarithm.
+struct CaseRange {
+  double least_width, most_width;
+  double least_tolerance_gu, most_tolerance_gu;
+};
+
 /// Draws cases of one model after another.
 class CaseSource {
  public:
-  explicit CaseSource(unsigned seed) : random_(seed) {}
+  CaseSource(unsigned seed, const CaseRange& range) : random_(seed), range_(range) {}
 
-  RandomCase next(const std::string& model, double least_width = 0.0005) {
+  RandomCase next(const std::string& model) {
     text_.str({});
     text_ << model;
-    Surface surface = draw_surface(model, least_width);
+    Surface surface = draw_surface(model);
     const double theta = draw_theta();
     const Aperture source = draw_source(theta);
     const Aperture receptor = draw_receptor(theta);
-    const double tolerance_gu = logarithmic("tolerance_gu", 1e-8, 1e-2);
+    const double tolerance_gu = logarithmic("tolerance_gu", range_.least_tolerance_gu, range_.most_tolerance_gu);
     const double rho = fresnel_reflectance(std::max(source.frame().axis.z(), 0.0), 1.567);
     return {text_.str(), std::move(surface), {source, receptor},
             rho * ApertureIntegrator().incident(source), tolerance_gu};
@@ -72,7 +79,7 @@ class CaseSource {
     }
   }
 
-  Surface draw_surface(const std::string& model, double least_width) {
+  Surface draw_surface(const std::string& model) {
     const WavelengthGrid& grid = three_wavelengths;
     const Amplitudes both{.specular = 0.6, .diffuse = Eigen::Array3d(0.1, 0.3, 0.2)};
     if (model == "smooth") {
@@ -82,10 +89,13 @@ class CaseSource {
       return lambertian(grid, both.diffuse);
     }
     if (model == "coherent_roughness") {
+      // Where sigma is small, the rms slope is lambda / (2 pi T cos theta), here at 550 nm.
+      const double width = logarithmic("width", range_.least_width, 0.1);
+      const double length_um = 0.55 / (2.0 * std::numbers::pi * width);
       return coherent_roughness(grid, nanometres(logarithmic("sigma_nm", 5.0, 1000.0)),
-                                micrometres(logarithmic("T_um", 1.0, 200.0)), draw_index());
+                                micrometres(length_um), draw_index());
     }
-    const double width = logarithmic("width", least_width, 1.0);
+    const double width = logarithmic("width", range_.least_width, range_.most_width);
     const Amplitudes amplitudes = one_of(2) == 0 ? Amplitudes{} : both;
     text_ << ", k_s " << amplitudes.specular;
     if (model == "cook_torrance") {
@@ -150,6 +160,7 @@ class CaseSource {
   }
 
   std::mt19937 random_;
+  CaseRange range_;
   std::ostringstream text_;
 };
 

@@ -1,0 +1,228 @@
+#include "emulator/instrument/instrument.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "tests/unit/message_of.hpp"
+#include "tests/unit/standard/shipped_standards.hpp"
+#include "tests/unit/temporary_folder.hpp"
+
+namespace gonio {
+namespace {
+
+using test::ids_of_shipped;
+using test::message_of;
+using test::shipped;
+using test::shipped_standard;
+using test::TemporaryFolder;
+using testing::StartsWith;
+
+constexpr double rounding = 1e-12;
+
+std::string instrument_text(const std::string& as_built,
+                            const std::string& built_to = "iso_2813/2014") {
+  return "schema: gonio/instrument/1\n"  // 1
+         "id: mine\n"                    // 2
+         "title: Mine\n"                 // 3
+         "built_to: " +
+         built_to + "\n" +  // 4
+         as_built;          // 5 ...
+}
+
+Instrument load_text(const std::string& text) {
+  const TemporaryFolder folder;
+  return load_instrument(folder.file("mine.yaml", text), shipped());
+}
+
+/// The message for a file with this text, without the file's name.
+std::string error_of(const std::string& text) {
+  const TemporaryFolder folder;
+  const auto file = folder.file("mine.yaml", text);
+  const std::string message = message_of([&] { (void)load_instrument(file, shipped()); });
+  return message.starts_with(file.string()) ? message.substr(file.string().size()) : message;
+}
+
+double theta_deg(const Aperture& aperture) {
+  return std::acos(aperture.frame().axis.z()) * 180.0 / std::numbers::pi;
+}
+double in_plane_deg(const Aperture& aperture) {
+  return 2.0 * std::atan(aperture.u_high()) * 180.0 / std::numbers::pi;
+}
+double perpendicular_deg(const Aperture& aperture) {
+  return 2.0 * std::atan(aperture.v_high()) * 180.0 / std::numbers::pi;
+}
+
+// What ships.
+
+TEST(ShippedInstruments, LoadUnderTheIdOfTheirFile) {
+  const auto ids = ids_of_shipped(Catalog::Kind::instrument);
+  EXPECT_THAT(ids, testing::IsSupersetOf({"collimated_iso_2813", "nominal_iso_2813", "paper_setup",
+                                          "triangle_gloss"}));
+  for (const std::string& id : ids) {
+    const Instrument instrument =
+        load_instrument(shipped().find(Catalog::Kind::instrument, id), shipped());
+    EXPECT_EQ(instrument.id, id);
+    EXPECT_FALSE(instrument.title.empty()) << id;
+  }
+}
+
+// As built.
+
+TEST(InstrumentGeometry, IsTheStandardsWhereNothingIsStated) {
+  const Instrument nominal = nominal_instrument(shipped_standard("iso_2813/2014"));
+  const Instrument loaded = load_text(instrument_text(""));
+  for (const Instrument& instrument : {nominal, loaded}) {
+    const MeasuringGeometry geometry = instrument.geometry("60");
+    EXPECT_NEAR(theta_deg(geometry.source), 60.0, rounding);
+    EXPECT_NEAR(theta_deg(geometry.receptor), 60.0, rounding);
+    EXPECT_LT(geometry.source.frame().axis.x(), 0.0);
+    EXPECT_GT(geometry.receptor.frame().axis.x(), 0.0);
+    EXPECT_NEAR(in_plane_deg(geometry.source), 0.75, rounding);
+    EXPECT_NEAR(perpendicular_deg(geometry.source), 2.5, rounding);
+    EXPECT_NEAR(in_plane_deg(geometry.receptor), 4.4, rounding);
+    EXPECT_NEAR(perpendicular_deg(geometry.receptor), 11.7, rounding);
+  }
+}
+
+TEST(InstrumentGeometry, TakesWhatIsStatedAndTheStandardForTheRest) {
+  const Instrument instrument = load_text(instrument_text(
+      "as_built:\n"
+      "  \"60\": {theta_i: 60.04 deg, theta_r: 59.97 deg, receptor: {in_plane: 4.43 deg}}\n"
+      "  \"85\": {source: {perpendicular: 2.4 deg}}\n"));
+  const MeasuringGeometry at_60 = instrument.geometry("60");
+  EXPECT_NEAR(theta_deg(at_60.source), 60.04, rounding);
+  EXPECT_NEAR(theta_deg(at_60.receptor), 59.97, rounding);
+  EXPECT_NEAR(in_plane_deg(at_60.receptor), 4.43, rounding);
+  EXPECT_NEAR(perpendicular_deg(at_60.receptor), 11.7, rounding);
+  EXPECT_NEAR(in_plane_deg(at_60.source), 0.75, rounding);
+  const MeasuringGeometry at_85 = instrument.geometry("85");
+  EXPECT_NEAR(theta_deg(at_85.source), 85.0, 1e-10);  // acos loses digits there
+  EXPECT_NEAR(in_plane_deg(at_85.source), 0.75, rounding);
+  EXPECT_NEAR(perpendicular_deg(at_85.source), 2.4, rounding);
+}
+
+TEST(InstrumentGeometry, LeavesTheReceptorWhereItIsWhenTheSourceIsMisplaced) {
+  const Instrument instrument =
+      load_text(instrument_text("as_built:\n  \"60\": {theta_i: 60.2 deg}\n"));
+  EXPECT_NEAR(theta_deg(instrument.geometry("60").source), 60.2, rounding);
+  EXPECT_NEAR(theta_deg(instrument.geometry("60").receptor), 60.0, rounding);
+}
+
+TEST(InstrumentGeometry, MayBeRoundWhereTheStandardIsNot) {
+  const MeasuringGeometry geometry =
+      load_text(instrument_text("as_built:\n  \"20\": {receptor: {diameter: 4.7 deg}}\n"))
+          .geometry("20");
+  EXPECT_EQ(geometry.receptor.outline(), Aperture::Outline::circle);
+  EXPECT_NEAR(in_plane_deg(geometry.receptor), 4.7, rounding);
+  EXPECT_EQ(geometry.source.outline(), Aperture::Outline::rectangle);
+}
+
+TEST(InstrumentGeometry, StatesWhatTheStandardLeavesUnknown) {
+  const MeasuringGeometry geometry =
+      load_text(instrument_text("as_built:\n"
+                                "  \"75\":\n"
+                                "    source: {in_plane: 1 deg, perpendicular: 2 deg}\n"
+                                "    receptor: {in_plane: 5 deg, perpendicular: 6 deg}\n",
+                                "tappi_t480/om_15"))
+          .geometry("75");
+  EXPECT_NEAR(perpendicular_deg(geometry.source), 2.0, rounding);
+  EXPECT_NEAR(perpendicular_deg(geometry.receptor), 6.0, rounding);
+}
+
+TEST(InstrumentGeometry, NamesTheFirstNumberThatIsStillMissing) {
+  const Instrument instrument =
+      load_text(instrument_text("as_built:\n"
+                                "  \"75\":\n"
+                                "    source: {in_plane: 1 deg, perpendicular: 2 deg}\n"
+                                "    receptor: {in_plane: 5 deg}\n",
+                                "tappi_t480/om_15"));
+  EXPECT_THAT(message_of([&] { (void)instrument.geometry("75"); }),
+              testing::EndsWith("geometries[0].receptor.perpendicular: expected a number, to "
+                                "measure in this geometry, found 'unknown'"));
+}
+
+TEST(InstrumentGeometry, WithOneSideInPlaceOfACircleNamesTheOtherSideInTheInstrumentsFile) {
+  const TemporaryFolder folder;
+  const auto file = folder.file(
+      "mine.yaml", instrument_text("as_built:\n"
+                                   "  \"20\":\n"
+                                   "    source: {in_plane: 1 deg, perpendicular: 2 deg}\n"
+                                   "    receptor: {in_plane: 4 deg}\n",
+                                   "tappi_t653/om_07"));
+  const std::string message =
+      message_of([&] { (void)load_instrument(file, shipped()).geometry("20"); });
+  EXPECT_THAT(message, StartsWith(file.string() + ":8:"));
+  EXPECT_THAT(message, testing::HasSubstr("perpendicular"));
+}
+
+TEST(InstrumentGeometry, OfAnUnknownIdIsOutOfRange) {
+  EXPECT_THROW((void)load_text(instrument_text("")).geometry("45"), std::out_of_range);
+}
+
+TEST(InstrumentLoad, ReadsSpectraAndRepeatability) {
+  const Instrument triangle =
+      load_instrument(shipped().find(Catalog::Kind::instrument, "triangle_gloss"), shipped());
+  EXPECT_EQ(triangle.repeatability_gu, 0.05);
+  EXPECT_NE(triangle.source.at(nanometres(450)), triangle.standard.source.at(nanometres(450)));
+  EXPECT_EQ(triangle.responsivity.at(nanometres(555)), 1.0);
+  EXPECT_FALSE(load_text(instrument_text("")).repeatability_gu);
+}
+
+// Errors.
+
+TEST(InstrumentErrors, OfKeys) {
+  EXPECT_EQ(error_of(instrument_text("colour: red\n")),
+            ":5:1: colour: expected one of the keys as_built, built_to, id, notes, repeatability, "
+            "responsivity, schema, source_spectrum, title, found 'colour'");
+  EXPECT_EQ(error_of(instrument_text("as_built:\n  \"60\": {colour: 3 deg}\n")),
+            ":6:10: as_built.60.colour: expected one of the keys receptor, source, theta_i, "
+            "theta_r, found 'colour'");
+  EXPECT_EQ(error_of(instrument_text("as_built:\n  \"60\": {source: {width: 3 deg}}\n")),
+            ":6:19: as_built.60.source.width: expected one of the keys diameter, in_plane, "
+            "perpendicular, found 'width'");
+  EXPECT_EQ(
+      error_of(
+          instrument_text("as_built:\n  \"60\": {receptor: {diameter: 3 deg, in_plane: 3 deg}}\n")),
+      ":6:38: as_built.60.receptor.in_plane: expected one of the keys diameter, found 'in_plane'");
+}
+
+TEST(InstrumentErrors, OfAGeometryThatTheStandardDoesNotHave) {
+  EXPECT_EQ(error_of(instrument_text("as_built:\n  \"45\": {theta_i: 45 deg}\n")),
+            ":6:9: as_built.45: expected a geometry of iso_2813/2014, found '45'");
+}
+
+TEST(InstrumentErrors, OfNumbers) {
+  EXPECT_EQ(error_of(instrument_text("as_built:\n  \"60\": {theta_i: 60}\n")),
+            ":6:19: as_built.60.theta_i: expected an angle (deg, rad, mrad) in [0, 90), found "
+            "'60'");
+  EXPECT_EQ(error_of(instrument_text("as_built:\n  \"60\": {theta_r: 91 deg}\n")),
+            ":6:19: as_built.60.theta_r: expected an angle (deg, rad, mrad) in [-90, 90], found "
+            "'91 deg'");
+  EXPECT_EQ(error_of(instrument_text("as_built:\n  \"60\": {source: {in_plane: -1 deg}}\n")),
+            ":6:29: as_built.60.source.in_plane: expected an angle (deg, rad, mrad) in [0, 120], "
+            "found '-1 deg'");
+  EXPECT_EQ(error_of(instrument_text("repeatability: 0.05\n")),
+            ":5:16: repeatability: expected a gloss value (GU) >= 0, found '0.05'");
+  EXPECT_EQ(error_of(instrument_text("repeatability: -0.05 GU\n")),
+            ":5:16: repeatability: expected a gloss value (GU) >= 0, found '-0.05 GU'");
+}
+
+TEST(InstrumentErrors, OfAStandardThatIsNotThereNameItsPlaceInTheFile) {
+  const std::string message = error_of(instrument_text("", "iso_2813/2099"));
+  EXPECT_THAT(message, StartsWith(":4:11: built_to: expected"));
+  EXPECT_THAT(message, testing::HasSubstr("iso_2813/2014"));
+  EXPECT_THAT(message, testing::EndsWith("found 'iso_2813/2099'"));
+}
+
+TEST(InstrumentErrors, OfASpectrumThatIsNotThere) {
+  EXPECT_THAT(error_of(instrument_text("source_spectrum: {file: lamp.csv}\n")),
+              testing::HasSubstr("lamp.csv"));
+}
+
+}  // namespace
+}  // namespace gonio

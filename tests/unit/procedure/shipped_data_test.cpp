@@ -1,0 +1,136 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "emulator/core/text_file.hpp"
+#include "tests/unit/procedure/laboratory.hpp"
+
+// Everything that ships can be used, or says which number is missing.
+
+namespace gonio {
+namespace {
+
+using test::ids_of_shipped;
+using test::observer;
+using test::shipped_meter;
+using test::shipped_sample;
+using test::shipped_standard;
+
+constexpr double tolerance_gu = 1e-3;
+
+/// The word at a place of a file.
+std::string word_at(const SourceMark& mark) {
+  std::istringstream lines(read_text_file(mark.file));
+  std::string line;
+  for (int i = 0; i < mark.line; ++i) {
+    std::getline(lines, line);
+  }
+  std::string word;
+  std::istringstream(line.substr(std::size_t(mark.column - 1))) >> word;
+  return word;
+}
+
+/// Measures in one geometry. @return  whether it could.
+bool measures(const std::string& standard, const std::string& geometry) {
+  const Glossmeter meter = test::meter_by_standard(standard);
+  try {
+    const Measurement measurement = measure(shipped_sample("black_satin"), meter, observer(),
+                                            {.geometries = {geometry}, .tolerance = tolerance_gu});
+    EXPECT_GT(measurement.find(geometry)->reading.gloss, 0.0) << standard << " " << geometry;
+    return true;
+  } catch (const InputError& error) {
+    EXPECT_EQ(word_at(error.mark()), "unknown") << error.what();
+    EXPECT_THAT(error.mark().key, testing::MatchesRegex("geometries.[0-9]+..(source|receptor)."
+                                                        "(in_plane|perpendicular|diameter)"));
+    EXPECT_EQ(
+        std::string(error.what()),
+        error.mark().text() + ": expected a number, to measure in this geometry, found 'unknown'");
+    return false;
+  }
+}
+
+TEST(ShippedStandards, MeasureInEachGeometryOrNameTheMissingNumber) {
+  int measuring = 0;
+  int missing = 0;
+  for (const std::string& id : ids_of_shipped(Catalog::Kind::standard)) {
+    for (const GeometryLimits& geometry : shipped_standard(id).geometries) {
+      ++(measures(id, geometry.id) ? measuring : missing);
+    }
+  }
+  EXPECT_GE(measuring, 22);
+  EXPECT_GE(missing, 1);
+}
+
+TEST(ShippedInstruments, ReadTheReferenceGlassAt100) {
+  for (const std::string& id : ids_of_shipped(Catalog::Kind::instrument)) {
+    const Glossmeter meter = shipped_meter(id);
+    for (const GeometryLimits& geometry : meter.instrument().standard.geometries) {
+      EXPECT_NEAR(meter.read(shipped_sample("black_glass_n1567").surface, geometry.id, 1e-6).gloss,
+                  100.0, 1e-9)
+          << id << " at " << geometry.id;
+    }
+  }
+}
+
+// An instrument within the limits of the standard reads within a unit or so of the nominal one.
+TEST(ShippedInstruments, WithinTheLimitsReadNearTheNominalOne) {
+  constexpr double few_units = 3.0;
+  const Sample paint = shipped_sample("black_high_gloss");
+  const Measurement nominal =
+      measure(paint, shipped_meter("nominal_iso_2813"), observer(), {.tolerance = tolerance_gu});
+  const Measurement built =
+      measure(paint, shipped_meter("triangle_gloss"), observer(), {.tolerance = tolerance_gu});
+  for (const GeometryResult& result : nominal.geometries) {
+    EXPECT_NE(built.find(result.id)->reading.gloss, result.reading.gloss);
+    EXPECT_NEAR(built.find(result.id)->reading.gloss, result.reading.gloss, few_units) << result.id;
+  }
+}
+
+TEST(ShippedSamples, HaveTheIdOfTheirFileAndATitle) {
+  const auto ids = ids_of_shipped(Catalog::Kind::sample);
+  EXPECT_GE(ids.size(), 35u);
+  for (const std::string& id : ids) {
+    const Sample sample = shipped_sample(id);
+    EXPECT_EQ(sample.id, id);
+    EXPECT_FALSE(sample.title.empty()) << id;
+    EXPECT_FALSE(sample.notes.empty()) << id;
+  }
+}
+
+TEST(ShippedSamples, ReadAGlossThatIsNotNegativeAndAReflectanceUpToOne) {
+  constexpr double rounding = 1e-12;
+  const Glossmeter meter = test::meter_by_standard("iso_2813/2014");
+  const Measurement mirror =
+      measure(shipped_sample("perfect_mirror"), meter, observer(), {.tolerance = tolerance_gu});
+  for (const std::string& id : ids_of_shipped(Catalog::Kind::sample)) {
+    const Measurement measurement =
+        measure(shipped_sample(id), meter, observer(), {.tolerance = tolerance_gu});
+    for (const GeometryResult& result : measurement.geometries) {
+      const GlossReading& reading = result.reading;
+      EXPECT_GE(reading.gloss, 0.0) << id << " at " << result.id;
+      EXPECT_LE(reading.gloss, mirror.find(result.id)->reading.gloss + tolerance_gu) << id;
+      EXPECT_LE(reading.quadrature_error, tolerance_gu) << id << " at " << result.id;
+      EXPECT_GE(reading.reflectance.minCoeff(), 0.0) << id << " at " << result.id;
+      EXPECT_LE(reading.reflectance.maxCoeff(), 1.0 + rounding) << id << " at " << result.id;
+    }
+  }
+}
+
+// What the notes of a sample promise.
+TEST(ShippedSamples, ReadWhatTheirNotesSayAtSixtyDegrees) {
+  constexpr double about = 1.0;
+  const Glossmeter meter = test::meter_by_standard("iso_2813/2014");
+  const auto gloss = [&](const std::string& id) {
+    return meter.read(shipped_sample(id).surface, "60", tolerance_gu).gloss;
+  };
+  EXPECT_NEAR(gloss("black_high_gloss"), 83.0, about);
+  EXPECT_NEAR(gloss("black_semi_gloss"), 52.0, about);
+  EXPECT_NEAR(gloss("black_satin"), 35.0, about);
+  EXPECT_NEAR(gloss("black_eggshell"), 16.0, about);
+}
+
+}  // namespace
+}  // namespace gonio
