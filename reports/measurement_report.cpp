@@ -7,6 +7,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "emulator/core/csv_cell.hpp"
+#include "emulator/core/quantity.hpp"
+
 namespace gonio {
 
 namespace {
@@ -17,22 +20,34 @@ std::vector<double> to_vector(const Eigen::ArrayXd& values) {
   return {values.begin(), values.end()};
 }
 
+/// A number with so many decimals; a zero has no sign.
+std::string fixed(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) {
+    text.erase(0, 1);
+  }
+  return text;
+}
+
+/// An angle in degrees without the last bits that its way through radians leaves: 60, not
+/// 59.99999999999999.
+double degrees_for_output(Angle angle) {
+  return parse_quantity(fmt::format("{:.12g}", angle.degrees()), Dimension::number).value();
+}
+
 /// The value as the standard has it reported, e.g. to the nearest unit.
 std::string reported(double gloss, const Standard& standard) {
   if (!standard.rounding) {
-    return fmt::format("{:.1f}", gloss);
+    return fixed(gloss, 1);
   }
   const double step = standard.rounding->nominal;
   const int decimals = std::max(0, int(std::ceil(-std::log10(step) - 1e-9)));
-  return fmt::format("{:.{}f}", std::round(gloss / step) * step, decimals);
+  return fixed(std::round(gloss / step) * step, decimals);
 }
 
-/// Rounded to two decimals, without the sign of a zero.
-double two_decimals(double value) { return std::round(value * 100.0) / 100.0 + 0.0; }
-
 std::string lab_text(const std::optional<ReflectedColour>& colour) {
-  return colour ? fmt::format("{:8.2f} {:7.2f} {:7.2f}", two_decimals(colour->lab.L),
-                              two_decimals(colour->lab.a), two_decimals(colour->lab.b))
+  return colour ? fmt::format("{:>8} {:>7} {:>7}", fixed(colour->lab.L, 2), fixed(colour->lab.a, 2),
+                              fixed(colour->lab.b, 2))
                 : fmt::format("{:>8} {:>7} {:>7}", "-", "-", "-");
 }
 
@@ -40,10 +55,10 @@ void append_row(std::string& text, const MeasurementHeader& header, const Measur
                 const GeometryResult& result, bool styled, std::size_t width) {
   const bool selected = measurement.selected_geometry == result.id;
   const std::string row = fmt::format(
-      "{:<{}}  {:>8}  {:>8} {:<2}{:>14.4f}  {:>8.1e}  {:>10.6f}  {}", measurement.sample, width,
+      "{:<{}}  {:>8}  {:>8} {:<2}{:>14}  {:>8.1e}  {:>10}  {}", measurement.sample, width,
       result.id, reported(result.reading.gloss, header.standard), selected ? "<" : "",
-      result.reading.gloss, result.reading.quadrature_error, result.reading.luminous_reflectance,
-      lab_text(result.colour));
+      fixed(result.reading.gloss, 4), result.reading.quadrature_error,
+      fixed(result.reading.luminous_reflectance, 6), lab_text(result.colour));
   text += styled && selected ? "\033[1m" + row + "\033[0m\n" : row + "\n";
 }
 
@@ -68,10 +83,10 @@ std::string footnotes(const MeasurementHeader& header,
       }
     }
     for (const HazeResult& haze : measurement.haze) {
-      text +=
-          fmt::format("{}: {} {}\n", measurement.sample, haze.id,
-                      haze.value ? fmt::format("{:.1f} {}", *haze.value, header.standard.scale.unit)
-                                 : "not defined for it by the standard");
+      text += fmt::format(
+          "{}: {} {}\n", measurement.sample, haze.id,
+          haze.value ? fmt::format("{} {}", fixed(*haze.value, 1), header.standard.scale.unit)
+                     : "not defined for it by the standard");
     }
   }
   if (any_selected) {
@@ -91,7 +106,7 @@ ordered_json colour_json(const ReflectedColour& colour) {
 
 ordered_json geometry_json(const MeasurementHeader& header, const GeometryResult& result) {
   ordered_json json{{"id", result.id},
-                    {"theta_i_deg", result.theta_i.degrees()},
+                    {"theta_i_deg", degrees_for_output(result.theta_i)},
                     {"gloss_gu", result.reading.gloss},
                     {"quadrature_error_gu", result.reading.quadrature_error},
                     {"luminous_reflectance", result.reading.luminous_reflectance},
@@ -124,6 +139,11 @@ ordered_json measurement_object(const MeasurementHeader& header, const Measureme
   return json;
 }
 
+/// Bytes that are no UTF-8, which the name of a file may have, become U+FFFD.
+std::string json_text(const ordered_json& json) {
+  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
 }  // namespace
 
 std::string measurement_text(const MeasurementHeader& header,
@@ -150,15 +170,14 @@ std::string measurement_text(const MeasurementHeader& header,
 
 std::string measurement_json(const MeasurementHeader& header,
                              const std::vector<Measurement>& measurements) {
-  constexpr int indent = 1;
   if (measurements.size() == 1) {
-    return measurement_object(header, measurements.front()).dump(indent) + "\n";
+    return json_text(measurement_object(header, measurements.front()));
   }
   ordered_json all{{"schema", "gonio/measurements/1"}, {"measurements", ordered_json::array()}};
   for (const Measurement& measurement : measurements) {
     all["measurements"].push_back(measurement_object(header, measurement));
   }
-  return all.dump(indent) + "\n";
+  return json_text(all);
 }
 
 std::string measurement_csv(const MeasurementHeader& header,
@@ -169,8 +188,9 @@ std::string measurement_csv(const MeasurementHeader& header,
   for (const Measurement& measurement : measurements) {
     for (const GeometryResult& result : measurement.geometries) {
       const GlossReading& reading = result.reading;
-      text += fmt::format("{},{},{},{},{},{},{},{},", header.standard.id, measurement.sample,
-                          result.id, result.theta_i.degrees(), reading.gloss,
+      text += fmt::format("{},{},{},{},{},{},{},{},", csv_cell(header.standard.id),
+                          csv_cell(measurement.sample), csv_cell(result.id),
+                          degrees_for_output(result.theta_i), reading.gloss,
                           reading.quadrature_error, reading.luminous_reflectance,
                           measurement.selected_geometry == result.id ? 1 : 0);
       if (result.colour) {
@@ -191,7 +211,7 @@ std::string spectra_csv(const MeasurementHeader& header,
                                  header.standard.id, header.instrument);
   for (const Measurement& measurement : measurements) {
     for (const GeometryResult& result : measurement.geometries) {
-      text += fmt::format(",{} {}", measurement.sample, result.id);
+      text += fmt::format(",{}", csv_cell(fmt::format("{} {}", measurement.sample, result.id)));
     }
   }
   text += "\n";

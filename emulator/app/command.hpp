@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "emulator/core/catalog.hpp"
+#include "emulator/core/quantity.hpp"
 
 namespace gonio::app {
 
@@ -24,6 +25,9 @@ struct CommonOptions {
 void add_measure_command(CLI::App& program, const CommonOptions& common);
 void add_list_command(CLI::App& program, const CommonOptions& common);
 void add_glass_command(CLI::App& program, const CommonOptions& common);
+
+/// Refuses what is not a number in that range, NaN too. @param range  not all numbers.
+[[nodiscard]] CLI::Validator number_in(const Range& range);
 
 /// `--format text|json|csv`.
 void add_format_option(CLI::App& command, std::string& format);

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "emulator/app/command.hpp"
+#include "emulator/core/csv_cell.hpp"
 #include "emulator/instrument/glossmeter.hpp"
 
 namespace gonio::app {
@@ -35,7 +36,7 @@ std::string table(const Standard& standard, const std::vector<double>& indices,
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   std::string text = format == "csv" ? "n" : fmt::format("{:>6}", "n");
   for (const GeometryLimits& geometry : standard.geometries) {
-    text += format == "csv" ? "," + geometry.id : fmt::format("  {:>10}", geometry.id);
+    text += format == "csv" ? "," + csv_cell(geometry.id) : fmt::format("  {:>10}", geometry.id);
   }
   text += "\n";
   for (const double n : indices) {
@@ -59,8 +60,9 @@ std::string table(const Standard& standard, const std::vector<double>& indices,
 }
 
 void run(const Options& options, const CommonOptions& common) {
+  const Catalog catalog = common.catalog();
   const Standard standard =
-      load_standard(common.catalog().find(Catalog::Kind::standard, options.standard));
+      load_standard(catalog.find(Catalog::Kind::standard, options.standard), catalog);
   if (!standard.scale.refractive_index) {
     throw std::invalid_argument(fmt::format(
         "{} has no reference glass: its scale is relative to the incident flux", standard.id));
@@ -79,7 +81,7 @@ void add_glass_command(CLI::App& program, const CommonOptions& common) {
   const auto options = std::make_shared<Options>();
   command
       ->add_option("--index", options->indices, "Refractive indices; 1.400 to 1.800 if not given")
-      ->check(CLI::Range(1.0, 10.0));
+      ->check(number_in(Range::closed(1.0, 10.0)));
   command->add_option("--standard", options->standard, "Whose scale and angles")
       ->capture_default_str();
   add_format_option(*command, options->format);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/app/command.hpp"
+#include "emulator/core/csv_cell.hpp"
 #include "emulator/core/yaml_map.hpp"
 
 namespace gonio::app {
@@ -21,19 +22,8 @@ struct Row {
 Row read_row(const Catalog::Entry& entry) {
   return YamlNode::load(entry.file).read_map([&](YamlMap& map) {
     map.ignore_others();
-    return Row{entry.id, map.required("title").text(), entry.file.string()};
+    return Row{entry.id, map.required("title").line(), entry.file.string()};
   });
-}
-
-std::string csv_cell(const std::string& text) {
-  if (text.find_first_of(",\"\n") == std::string::npos) {
-    return text;
-  }
-  std::string quoted = "\"";
-  for (const char c : text) {
-    quoted += c == '"' ? "\"\"" : std::string(1, c);
-  }
-  return quoted + "\"";
 }
 
 std::string table(const std::vector<Row>& rows, const Options& options) {
@@ -45,12 +35,15 @@ std::string table(const std::vector<Row>& rows, const Options& options) {
     list.push_back({{"id", row.id}, {"title", row.title}, {"file", row.file}});
   }
   if (options.format == "json") {
-    return nlohmann::ordered_json{{"schema", "gonio/list/1"}, {options.what, list}}.dump(1) + "\n";
+    using nlohmann::ordered_json;
+    return ordered_json{{"schema", "gonio/list/1"}, {options.what, list}}.dump(
+               1, ' ', false, ordered_json::error_handler_t::replace) +
+           "\n";
   }
   for (const Row& row : rows) {
-    text += options.format == "csv"
-                ? fmt::format("{},{},{}\n", row.id, csv_cell(row.title), csv_cell(row.file))
-                : fmt::format("{:<{}}  {}\n", row.id, width, row.title);
+    text += options.format == "csv" ? fmt::format("{},{},{}\n", csv_cell(row.id),
+                                                  csv_cell(row.title), csv_cell(row.file))
+                                    : fmt::format("{:<{}}  {}\n", row.id, width, row.title);
   }
   return text;
 }

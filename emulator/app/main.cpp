@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -17,6 +18,17 @@ void print(std::string_view text) {
   }
 }
 
+CLI::Validator number_in(const Range& range) {
+  const std::string expected = "number" + range.text();
+  return {[=](const std::string& text) {
+            const auto value = parse_quantity(text, Dimension::number);
+            return value && range.contains(*value)
+                       ? std::string()
+                       : fmt::format("expected a {}, found '{}'", expected, text);
+          },
+          range.text()};
+}
+
 void add_format_option(CLI::App& command, std::string& format) {
   command.add_option("--format", format, "How results are printed")
       ->check(CLI::IsMember({"text", "json", "csv"}))
@@ -24,6 +36,24 @@ void add_format_option(CLI::App& command, std::string& format) {
 }
 
 namespace {
+
+/// The first word of a command line that names no command.
+std::optional<std::string> unknown_command(const CLI::App& program) {
+  for (const std::string& word : program.remaining()) {
+    if (program.get_subcommands().empty() && !word.starts_with('-')) {
+      return word;
+    }
+  }
+  return std::nullopt;
+}
+
+std::string command_list(const CLI::App& program) {
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) {
+    names.push_back(command->get_name());
+  }
+  return fmt::format("{}", fmt::join(names, ", "));
+}
 
 int run(int argc, char** argv) {
   CLI::App program{"Virtual gonio-spectrophotometer and glossmeter", "gonio"};
@@ -42,6 +72,10 @@ int run(int argc, char** argv) {
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
+    if (const auto word = unknown_command(program)) {
+      throw std::invalid_argument(
+          fmt::format("expected one of the commands {}, found '{}'", command_list(program), *word));
+    }
     return program.exit(error) == 0 ? done : bad_input;
   }
   return done;

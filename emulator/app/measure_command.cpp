@@ -18,13 +18,15 @@ namespace gonio::app {
 
 namespace {
 
+constexpr int default_patches = 256;
+
 struct Options {
   std::vector<std::string> samples;
   std::string standard = "iso_2813/2014";
   std::optional<std::string> instrument;
   std::vector<std::string> geometries;
   std::string integrator = "aperture";
-  int patches = 256;
+  std::optional<int> patches;
   double tolerance = 1e-4;
   std::string tilt = "0 deg";
   std::optional<std::string> reference_glass;
@@ -62,13 +64,40 @@ Angle parse_tilt(const std::string& text) {
 
 std::shared_ptr<const FluxIntegrator> make_integrator(const Options& options) {
   if (options.integrator == "aperture") {
+    if (options.patches) {
+      throw std::invalid_argument("--patches: expected --integrator patches with it");
+    }
     return std::make_shared<ApertureIntegrator>();
   }
-  if (options.patches < 4 || options.patches % 4 != 0 || options.patches > 4096) {
-    throw std::invalid_argument(fmt::format(
-        "--patches: expected a multiple of 4 in [4, 4096], found '{}'", options.patches));
+  const int patches = options.patches.value_or(default_patches);
+  if (patches < 4 || patches % 4 != 0 || patches > 4096) {
+    throw std::invalid_argument(
+        fmt::format("--patches: expected a multiple of 4 in [4, 4096], found '{}'", patches));
   }
-  return std::make_shared<PatchIntegrator>(options.patches);
+  return std::make_shared<PatchIntegrator>(patches);
+}
+
+Instrument make_instrument(const Options& options, const Catalog& catalog) {
+  if (options.instrument) {
+    return load_instrument(catalog.find(Catalog::Kind::instrument, *options.instrument), catalog);
+  }
+  return nominal_instrument(
+      load_standard(catalog.find(Catalog::Kind::standard, options.standard), catalog));
+}
+
+/// The index of a reference glass that was asked for; empty for the standard's own reference.
+Eigen::ArrayXcd reference_index(const Options& options, const Standard& standard,
+                                const WavelengthGrid& grid) {
+  if (!options.reference_glass) {
+    return {};
+  }
+  if (standard.scale.reference == Scale::Reference::incident_flux) {
+    throw std::invalid_argument(fmt::format(
+        "--reference-glass: expected a standard with a reference glass, found '{}', whose scale is "
+        "relative to the incident flux",
+        standard.id));
+  }
+  return RefractiveIndex::load(*options.reference_glass).sample(grid);
 }
 
 std::string describe_reference(const Options& options, const Scale& scale) {
@@ -101,15 +130,9 @@ void run(const Options& options, const CommonOptions& common) {
   const MeasureOptions measure_options{.geometries = options.geometries,
                                        .tolerance = options.tolerance,
                                        .tilt = parse_tilt(options.tilt)};
-  const Instrument instrument =
-      options.instrument
-          ? load_instrument(catalog.find(Catalog::Kind::instrument, *options.instrument), catalog)
-          : nominal_instrument(
-                load_standard(catalog.find(Catalog::Kind::standard, options.standard)));
-  const Eigen::ArrayXcd reference_index =
-      options.reference_glass ? RefractiveIndex::load(*options.reference_glass).sample(grid)
-                              : Eigen::ArrayXcd();
-  const Glossmeter glossmeter(instrument, grid, make_integrator(options), reference_index);
+  const Instrument instrument = make_instrument(options, catalog);
+  const Glossmeter glossmeter(instrument, grid, make_integrator(options),
+                              reference_index(options, instrument.standard, grid));
   const Observer observer = Observer::load(catalog.fixture("observers/cie_1931_2deg.csv"), grid);
   std::vector<Sample> samples;
   for (const std::string& sample : options.samples) {
@@ -160,9 +183,9 @@ void add_measure_command(CLI::App& program, const CommonOptions& common) {
       ->check(CLI::IsMember({"aperture", "patches"}))
       ->capture_default_str();
   command->add_option("--patches", options->patches, "N of the 3 N^2 patches of the hemisphere")
-      ->capture_default_str();
+      ->default_str(std::to_string(default_patches));
   command->add_option("--tolerance", options->tolerance, "Of the aperture integrator, in GU")
-      ->check(CLI::Range(1e-12, 1e3))
+      ->check(number_in(Range::closed(1e-12, 1e3)))
       ->capture_default_str();
   command->add_option("--tilt", options->tilt, "Of the sample in the plane of measurement")
       ->capture_default_str();

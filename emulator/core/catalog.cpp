@@ -7,6 +7,7 @@
 #include <map>
 
 #include "emulator/core/input_error.hpp"
+#include "emulator/core/text_file.hpp"
 
 namespace gonio {
 
@@ -57,11 +58,11 @@ void collect(Catalog::Kind kind, const fs::path& root, std::map<std::string, fs:
 std::string noun(Catalog::Kind kind) {
   switch (kind) {
     case Catalog::Kind::standard:
-      return "standard";
+      return "a standard file";
     case Catalog::Kind::sample:
-      return "sample";
+      return "a sample file";
     case Catalog::Kind::instrument:
-      return "instrument";
+      return "an instrument file";
   }
   return {};
 }
@@ -93,19 +94,42 @@ Catalog Catalog::standard_places(const std::optional<fs::path>& data_dir) {
 }
 
 fs::path Catalog::find(Kind kind, const std::string& id_or_path) const {
-  if (fs::is_regular_file(id_or_path)) {
+  const std::string there = what_stands_at(id_or_path);
+  if (there == "a file") {
     return id_or_path;
   }
-  std::vector<std::string> ids;
+  if (const auto file = file_of(kind, id_or_path)) {
+    return *file;
+  }
+  throw InputError({.file = id_or_path}, expected(kind), there);
+}
+
+fs::path Catalog::find(Kind kind, const YamlNode& node) const {
+  if (what_stands_at(node.file_path()) == "a file") {
+    return node.file_path();
+  }
+  if (const auto file = file_of(kind, node.text())) {
+    return *file;
+  }
+  node.fail(expected(kind));
+}
+
+std::optional<fs::path> Catalog::file_of(Kind kind, const std::string& id) const {
   for (const Entry& entry : list(kind)) {
-    if (entry.id == id_or_path) {
+    if (entry.id == id) {
       return entry.file;
     }
+  }
+  return std::nullopt;
+}
+
+std::string Catalog::expected(Kind kind) const {
+  std::vector<std::string> ids;
+  for (const Entry& entry : list(kind)) {
     ids.push_back(entry.id);
   }
-  throw InputError({.file = id_or_path},
-                   fmt::format("a {} file, or one of the ids {}", noun(kind), fmt::join(ids, ", ")),
-                   "nothing");
+  return ids.empty() ? noun(kind)
+                     : fmt::format("{}, or one of the ids {}", noun(kind), fmt::join(ids, ", "));
 }
 
 std::vector<Catalog::Entry> Catalog::list(Kind kind) const {
@@ -114,6 +138,7 @@ std::vector<Catalog::Entry> Catalog::list(Kind kind) const {
     collect(kind, root, found);
   }
   std::vector<Entry> entries;
+  entries.reserve(found.size());
   for (const auto& [id, file] : found) {
     entries.push_back({id, file});
   }

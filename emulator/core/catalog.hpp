@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "emulator/core/yaml_map.hpp"
+
 namespace gonio {
 
 /// The folders with gonio's data, in the order in which they are searched.
@@ -17,6 +19,7 @@ class Catalog {
     std::filesystem::path file;
   };
 
+  Catalog() = default;  ///< of no folders
   /// @param roots  each has folders `standards` and `fixtures`.
   explicit Catalog(std::vector<std::filesystem::path> roots) : roots_(std::move(roots)) {}
 
@@ -30,6 +33,9 @@ class Catalog {
   /// itself.
   /// @throws InputError  that lists the ids there are, if there is none.
   [[nodiscard]] std::filesystem::path find(Kind kind, const std::string& id_or_path) const;
+  /// The file that a YAML file names there: by an id, or by a path relative to itself.
+  /// @throws InputError  at that place, with the ids there are, if there is none.
+  [[nodiscard]] std::filesystem::path find(Kind kind, const YamlNode& node) const;
   /// All entries, by id; the first root that has an id wins.
   [[nodiscard]] std::vector<Entry> list(Kind kind) const;
   /// A file of the fixtures, e.g. "observers/cie_1931_2deg.csv".
@@ -37,6 +43,10 @@ class Catalog {
   [[nodiscard]] std::filesystem::path fixture(const std::filesystem::path& below) const;
 
  private:
+  [[nodiscard]] std::optional<std::filesystem::path> file_of(Kind kind,
+                                                             const std::string& id) const;
+  [[nodiscard]] std::string expected(Kind kind) const;
+
   std::vector<std::filesystem::path> roots_;
 };
 

@@ -179,7 +179,7 @@ SpectralTable SpectralTable::load(const YamlNode& node) {
     if (const auto name = map.optional("column")) {
       column = name->text();
     }
-    SpectralTable table = load(file.file_path(), column);
+    SpectralTable table = load(file.file(), column);
     table.mark_ = file.mark();
     return table;
   });

@@ -21,26 +21,28 @@ namespace {
 constexpr std::uintmax_t largest_input = 16u << 20;
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors begin UTF-8 with it
 
-std::string what_stands_there(const fs::path& path) {
-  std::error_code error;
-  const auto status = fs::status(path, error);
-  if (fs::is_directory(status)) {
-    return "a folder";
-  }
-  return fs::exists(status) ? "something else" : "nothing";
-}
-
 [[noreturn]] void fail(const fs::path& path) {
   throw std::system_error(errno, std::generic_category(), "cannot write " + path.string());
 }
 
 }  // namespace
 
+std::string what_stands_at(const fs::path& path) {
+  std::error_code error;
+  const auto status = fs::status(path, error);
+  if (fs::is_regular_file(status)) {
+    return "a file";
+  }
+  if (fs::is_directory(status)) {
+    return "a folder";
+  }
+  return fs::exists(status) ? "something else" : "nothing";
+}
+
 std::string read_text_file(const fs::path& path) {
   const SourceMark mark{.file = path.string(), .line = 0, .column = 0, .key = {}};
-  std::error_code unreadable;
-  if (!fs::is_regular_file(path, unreadable)) {
-    throw InputError(mark, "a file", what_stands_there(path));
+  if (const std::string there = what_stands_at(path); there != "a file") {
+    throw InputError(mark, "a file", there);
   }
   if (fs::file_size(path) > largest_input) {
     throw InputError(mark, "a file of at most 16 MiB",

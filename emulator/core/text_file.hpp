@@ -6,6 +6,9 @@
 
 namespace gonio {
 
+/// What a path leads to: "a file", "a folder", "something else" or "nothing".
+[[nodiscard]] std::string what_stands_at(const std::filesystem::path& path);
+
 /// The text of an input file, without a byte order mark.
 /// @throws InputError  if it is missing, not a regular file, empty, or larger than 16 MiB.
 [[nodiscard]] std::string read_text_file(const std::filesystem::path& path);

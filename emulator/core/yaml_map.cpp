@@ -7,10 +7,12 @@
 #include <yaml-cpp/mark.h>
 #include <yaml-cpp/parser.h>
 
+#include <algorithm>
 #include <numbers>
 #include <sstream>
 
 #include "emulator/core/text_file.hpp"
+#include "emulator/core/unicode.hpp"
 
 namespace gonio {
 
@@ -30,6 +32,23 @@ namespace {
 
 constexpr std::size_t deepest_nesting = 64;
 constexpr std::size_t most_nodes = 1'000'000;
+constexpr std::size_t longest_id = 64;
+constexpr std::string_view text_only = "UTF-8 text without control characters";
+
+/// Refuses a file with bytes that are no text, at the first of them.
+void expect_text(const std::string& bytes, const std::string& file) {
+  const auto bad = find_bad_text(bytes);
+  if (!bad) {
+    return;
+  }
+  const auto before = std::string_view(bytes).substr(0, bad->position);
+  const auto line_begin = before.rfind('\n') + 1;  // npos + 1 is 0
+  throw InputError({.file = file,
+                    .line = int(std::count(before.begin(), before.end(), '\n')) + 1,
+                    .column = int(before.size() - line_begin) + 1,
+                    .key = {}},
+                   std::string(text_only), bad->what);
+}
 
 /// Builds the tree from the parser's events, and refuses what the dialect leaves out.
 class TreeBuilder : public YAML::EventHandler {
@@ -97,6 +116,9 @@ class TreeBuilder : public YAML::EventHandler {
 
   /// A key, or a value. @return  the node of the value.
   YamlTree* scalar(const YAML::Mark& mark, const std::string& text) {
+    if (const auto bad = find_bad_text(text)) {  // written as an escape, "\x1b"
+      throw InputError(place(mark), std::string(text_only), bad->what);
+    }
     if (!open_.empty() && open_.back().node->kind == YamlKind::map && !open_.back().has_key) {
       set_key(mark, text);
       return nullptr;
@@ -198,6 +220,7 @@ YamlNode YamlNode::load(const std::filesystem::path& path) {
 }
 
 YamlNode YamlNode::parse(const std::string& text, const std::string& name) {
+  expect_text(text, name);
   TreeBuilder builder(name);
   // yaml-cpp 0.7 takes a quotation that nobody closed for complete if the text ends with a line
   // break. After a last comment it does not.
@@ -235,6 +258,24 @@ void YamlNode::fail(const std::string& expected, const std::string& found) const
 std::string YamlNode::text() const {
   if (!is_scalar() || node_->text.empty()) {
     fail("text");
+  }
+  return node_->text;
+}
+
+std::string YamlNode::line() const {
+  const std::string result = text();
+  if (result.find_first_of("\t\r\n") != std::string::npos) {
+    fail("text in one line, without tabs");
+  }
+  return result;
+}
+
+std::string YamlNode::id() const {
+  constexpr std::string_view allowed =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
+  if (!is_scalar() || node_->text.empty() || node_->text.size() > longest_id ||
+      node_->text.find_first_not_of(allowed) != std::string::npos) {
+    fail("an id of letters, digits, '_', '-' and '.'");
   }
   return node_->text;
 }
@@ -286,6 +327,14 @@ std::string YamlNode::choice(const std::vector<std::string>& choices) const {
 std::filesystem::path YamlNode::file_path() const {
   const std::filesystem::path folder = std::filesystem::path(mark().file).parent_path();
   return (folder / text()).lexically_normal();
+}
+
+std::filesystem::path YamlNode::file() const {
+  std::filesystem::path path = file_path();
+  if (const std::string there = what_stands_at(path); there != "a file") {
+    fail("a file", there == "nothing" ? text() : there);
+  }
+  return path;
 }
 
 std::vector<YamlNode> YamlNode::list() const {

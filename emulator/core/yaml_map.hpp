@@ -23,7 +23,8 @@ struct YamlTree;
 /// place when the value is not what was asked for. Cheap to copy; keeps its file's tree alive.
 ///
 /// The dialect is strict: a doubled key, an anchor or alias, a tag, nesting deeper than 64 or more
-/// than a million nodes, and a second document are errors when the file is loaded.
+/// than a million nodes, a second document, bytes that are not UTF-8, and control characters other
+/// than tab and line break are errors when the file is loaded.
 class YamlNode {
  public:
   /// @throws InputError  for a file that is missing, empty, or not YAML of this dialect.
@@ -36,6 +37,8 @@ class YamlNode {
   [[nodiscard]] bool is_map() const;
 
   [[nodiscard]] std::string text() const;  ///< a scalar as it is written, not empty
+  [[nodiscard]] std::string line() const;  ///< text without tabs and line breaks, e.g. a title
+  [[nodiscard]] std::string id() const;    ///< 1 to 64 letters, digits, '_', '-' and '.'
   [[nodiscard]] double number(const Range& range = Range::any()) const;
   [[nodiscard]] int integer(int low, int high) const;
   [[nodiscard]] bool boolean() const;  ///< true or false, nothing else
@@ -47,6 +50,7 @@ class YamlNode {
   [[nodiscard]] std::string choice(const std::vector<std::string>& choices) const;
   /// A file path, resolved relative to the folder of this YAML file.
   [[nodiscard]] std::filesystem::path file_path() const;
+  [[nodiscard]] std::filesystem::path file() const;  ///< the same, of a file that is there
   [[nodiscard]] std::vector<YamlNode> list() const;  ///< a list of at least one item
   [[nodiscard]] std::vector<YamlNode> list_or_empty() const;
 

@@ -1,5 +1,7 @@
 #include "emulator/instrument/instrument.hpp"
 
+#include <fmt/format.h>
+
 #include "emulator/core/yaml_map.hpp"
 
 namespace gonio {
@@ -9,7 +11,7 @@ namespace {
 OpeningAsBuilt read_opening(const YamlNode& node) {
   const Range range = Range::closed(0.0, 120.0);
   return node.read_map([&](YamlMap& map) {
-    OpeningAsBuilt opening;
+    OpeningAsBuilt opening{.mark = node.mark()};
     if (const auto diameter = map.optional("diameter")) {
       opening.diameter = diameter->angle(range);
       return opening;
@@ -43,6 +45,19 @@ GeometryAsBuilt read_geometry(const YamlNode& node) {
   });
 }
 
+/// A rectangle in place of the standard's circle needs both its sides.
+void expect_both_sides(const OpeningAsBuilt& opening) {
+  if (opening.in_plane && opening.perpendicular) {
+    return;
+  }
+  const std::string there = opening.in_plane ? "in_plane" : "perpendicular";
+  const std::string missing = opening.in_plane ? "perpendicular" : "in_plane";
+  SourceMark mark = opening.mark;
+  mark.key += "." + missing;
+  throw InputError(mark, fmt::format("the key '{}', since the standard has a circle", missing),
+                   "only " + there);
+}
+
 Aperture build(const Frame& frame, const ApertureLimits& limits, const OpeningAsBuilt& opening) {
   if (opening.diameter) {
     return Aperture::circle(frame, *opening.diameter);
@@ -50,17 +65,13 @@ Aperture build(const Frame& frame, const ApertureLimits& limits, const OpeningAs
   if (limits.is_circle() && !opening.in_plane && !opening.perpendicular) {
     return Aperture::circle(frame, limits.diameter->known().nominal);
   }
-  const auto size = [&](const std::optional<Angle>& built,
-                        const std::optional<ApertureSize>& limit) {
-    if (built) {
-      return *built;
-    }
-    // A side that is not stated, where the standard has a circle: that side is missing.
-    return limit ? limit->known().nominal
-                 : ApertureSize{.value = {}, .mark = limits.diameter->mark}.known().nominal;
-  };
-  const Angle in_plane = size(opening.in_plane, limits.in_plane);
-  return Aperture::rectangle(frame, in_plane, size(opening.perpendicular, limits.perpendicular));
+  if (limits.is_circle()) {
+    expect_both_sides(opening);
+  }
+  const Angle in_plane = opening.in_plane ? *opening.in_plane : limits.in_plane->known().nominal;
+  const Angle perpendicular =
+      opening.perpendicular ? *opening.perpendicular : limits.perpendicular->known().nominal;
+  return Aperture::rectangle(frame, in_plane, perpendicular);
 }
 
 }  // namespace
@@ -88,11 +99,12 @@ Instrument load_instrument(const std::filesystem::path& path, const Catalog& cat
   return YamlNode::load(path).read_map([&](YamlMap& map) {
     map.expect_schema("gonio/instrument/1");
     const YamlNode built_to = map.required("built_to");
-    const Standard standard = load_standard(catalog.find(Catalog::Kind::standard, built_to.text()));
+    const Standard standard =
+        load_standard(catalog.find(Catalog::Kind::standard, built_to), catalog);
     Instrument instrument = nominal_instrument(standard);
     instrument.file = path;
-    instrument.id = map.required("id").text();
-    instrument.title = map.required("title").text();
+    instrument.id = map.required("id").id();
+    instrument.title = map.required("title").line();
     if (const auto notes = map.optional("notes")) {
       instrument.notes = notes->text();
     }

@@ -17,6 +17,7 @@ namespace gonio {
 struct OpeningAsBuilt {
   std::optional<Angle> in_plane = {}, perpendicular = {};  ///< of a rectangle
   std::optional<Angle> diameter = {};                      ///< of a circle
+  SourceMark mark = {};
 };
 
 /// One geometry as built; nothing where it is as the standard says.

@@ -51,6 +51,10 @@ Aperture Aperture::face(const Frame& frame, double u_low, double u_high, double 
   return {frame, Outline::rectangle, u_low, u_high, v_low, v_high};
 }
 
+bool Aperture::is_symmetric() const {
+  return v_low_ == -v_high_ && frame_.axis.y() == 0.0 && frame_.u.y() == 0.0;
+}
+
 bool Aperture::contains(const Vector3& omega) const {
   const double along = omega.dot(frame_.axis);
   if (!(along > 0.0)) {
@@ -78,6 +82,12 @@ Angle Aperture::radius() const {
   const double u = std::max(std::abs(u_low_), std::abs(u_high_));
   const double v = std::max(std::abs(v_low_), std::abs(v_high_));
   return radians(std::atan(outline_ == Outline::circle ? u : std::hypot(u, v)));
+}
+
+Aperture Aperture::turned() const {
+  Aperture result = *this;
+  result.frame_ = {frame_.axis, frame_.v, -frame_.u};
+  return result;
 }
 
 Aperture Aperture::mirrored() const {

@@ -30,11 +30,15 @@ class Aperture {
   /// No extent in one direction at least: the source is collimated in it.
   [[nodiscard]] bool is_degenerate() const { return u_low_ == u_high_ || v_low_ == v_high_; }
 
+  /// Each direction within has its mirror image in the plane of measurement within.
+  [[nodiscard]] bool is_symmetric() const;
   [[nodiscard]] bool contains(const Vector3& omega) const;
   /// [sr], in closed form; 0 if degenerate.
   [[nodiscard]] double solid_angle() const;
   /// The largest angle between the axis and a direction within.
   [[nodiscard]] Angle radius() const;
+  /// The same circle, with u and v turned by 90 deg about the axis.
+  [[nodiscard]] Aperture turned() const;
   /// The same opening seen in the mirror.
   [[nodiscard]] Aperture mirrored() const;
   /// The same opening seen by a sample tilted by `angle` in the plane of measurement.

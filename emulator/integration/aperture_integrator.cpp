@@ -23,7 +23,7 @@ constexpr double rounding = 2e-14;
 Flux interface_flux(const Colour& reflectance, const Region& region, const CosineRange& range,
                     const ArrayXd& weight, double tolerance) {
   constexpr int order = 5;
-  constexpr std::size_t most_cells = 4000;
+  std::size_t budget = 10'000;
   const ColourSeries series(reflectance, range.low, range.high, 0.02 * tolerance);
   const VectorXd functional = series.coefficient * weight.matrix();
   const SquareRule rule(region, order, order);
@@ -44,7 +44,7 @@ Flux interface_flux(const Colour& reflectance, const Region& region, const Cosin
     kernel::add_chebyshev_moments(x, value, result.value);
     return result;
   };
-  const Integral moments = integrate(region, region.corners(), {}, estimate, tolerance, most_cells);
+  const Integral moments = integrate(region, region.corners(), {}, estimate, tolerance, budget);
   return {.spectral = (series.coefficient.transpose() * moments.value).array(),
           .error = moments.error + std::abs(moments.value(0)) * series.truncation.maxCoeff()};
 }
@@ -85,8 +85,8 @@ Flux ApertureIntegrator::reflected(const Surface& surface, const MeasuringGeomet
 double ApertureIntegrator::incident(const Aperture& source) const {
   const ArrayXd one = ArrayXd::Ones(1);
   constexpr double tolerance = 1e-16;
-  return interface_flux([&](double) { return one; }, Region(source), incidence_range(source), one,
-                        tolerance)
+  return interface_flux([&](double) -> ArrayXd { return one; }, Region(source),
+                        incidence_range(source), one, tolerance)
       .spectral(0);
 }
 

@@ -14,6 +14,7 @@ using Eigen::VectorXd;
 namespace {
 
 /// Only `__restrict` parameters tell the compiler that so many arrays do not overlap.
+// NOLINTNEXTLINE(readability-function-size): hence so many parameters
 GONIO_CLONES void tangent_loop(const Frame& frame, Index n, const double* __restrict u,
                                const double* __restrict v, double* __restrict x,
                                double* __restrict y, double* __restrict z,

@@ -16,7 +16,7 @@ struct Cell {
 };
 
 /// The product of two Kronrod rules on the square [-1, 1]^2; an axis without extent has one node of
-/// weight 1.
+/// weight 1. Filled up to whole vectors of the processor with nodes of weight 0.
 struct SquareRule {
   Eigen::ArrayXd p, q;          ///< nodes, shape (n)
   Eigen::ArrayXd weight;        ///< Kronrod in both axes, shape (n)
@@ -25,6 +25,13 @@ struct SquareRule {
 
   SquareRule(const Region& region, int gauss_points_p, int gauss_points_q);
   [[nodiscard]] Eigen::Index size() const { return p.size(); }
+  /// The index of the node (p(j), -q(j)).
+  [[nodiscard]] Eigen::Index opposite_in_q(Eigen::Index j) const {
+    return j - j % columns_ + columns_ - 1 - j % columns_;
+  }
+
+ private:
+  Eigen::Index columns_;  ///< nodes in q for each node in p
 };
 
 /// The nodes of a rule in a cell.
@@ -57,10 +64,11 @@ struct Integral {
 /// @param p_breaks, q_breaks  inside the region, in any order; the edges are added.
 /// @param evaluate            estimates a cell.
 /// @param tolerance           on the sum of errors; the result says if it was not reached.
-/// @param most_cells          where to give up.
+/// @param budget              of cells to estimate, lessened by each; where to give up. The cells
+///                            between the breaks are estimated even without it.
 [[nodiscard]] Integral integrate(const Region& region, std::vector<double> p_breaks,
                                  std::vector<double> q_breaks,
                                  const std::function<CellEstimate(const Cell&)>& evaluate,
-                                 double tolerance, std::size_t most_cells);
+                                 double tolerance, std::size_t& budget);
 
 }  // namespace gonio

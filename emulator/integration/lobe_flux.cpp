@@ -14,8 +14,8 @@ using Eigen::ArrayXd;
 using Eigen::Index;
 using Eigen::VectorXd;
 
-constexpr std::size_t most_receptor_cells = 4000;
-constexpr std::size_t most_source_cells = 4000;
+/// Where the integral of one lobe gives up: after about a second.
+constexpr std::size_t most_cells = 1'000'000;
 
 /// How far breaks go, in widths of the lobe: through its tails, or where the receptor's edge cuts
 /// it.
@@ -23,35 +23,49 @@ constexpr double to_the_edge = 1e9;
 constexpr double past_the_edge = 5.0;
 
 /// Moments of one lobe over the receptor, for light from one direction: int g T_k cos r d omega_r.
+///
+/// The rows of a circle shrink towards its ends, and what is straight and lies along them bends in
+/// their coordinates. So rows run along the lobe: a circle is turned so that p is across it.
 class ReceptorIntegral {
  public:
-  ReceptorIntegral(const Lobe& lobe, double parameter, const Aperture& receptor,
-                   const ColourSeries& series, const VectorXd& functional, const Plan& plan)
+  ReceptorIntegral(const Lobe& lobe, double parameter, const MeasuringGeometry& geometry,
+                   const ColourSeries& series, const VectorXd& functional,
+                   double relative_tolerance, std::size_t& budget)
       : lobe_(lobe),
         parameter_(parameter),
-        region_(receptor),
+        is_turned_(geometry.receptor.outline() == Aperture::Outline::circle &&
+                   width(geometry.source.frame().axis.z()).v <
+                       width(geometry.source.frame().axis.z()).u),
+        region_(is_turned_ ? geometry.receptor.turned() : geometry.receptor),
         series_(series),
         functional_(functional),
-        plan_(plan),
-        rule_(region_, plan.p.gauss_points, plan.q.gauss_points) {}
+        budget_(budget),
+        plan_(geometry.receptor, peak(geometry.source.frame().axis), relative_tolerance),
+        rule_(region_, plan_.p.gauss_points, plan_.q.gauss_points) {}
 
   Integral operator()(const Vector3& omega_i, double tolerance) {
-    const double cos_theta_i = omega_i.z();
-    if (cos_theta_i <= 0.0) {
+    if (omega_i.z() <= 0.0) {
       return {.value = VectorXd::Zero(functional_.size())};
     }
     Breaks breaks;
-    const SlopeWidth slope = lobe_.shape->slope_width(parameter_, cos_theta_i);
-    if (const auto peak = peak_in(region_.frame(), mirrored(omega_i), slope, cos_theta_i)) {
-      breaks.add_u(region_, *peak, plan_.p, to_the_edge);
-      breaks.add_v(region_, *peak, plan_.q, to_the_edge);
+    if (const auto at = peak(omega_i)) {
+      breaks.add_u(region_, *at, plan_.p, to_the_edge);
+      breaks.add_v(region_, *at, plan_.q, to_the_edge);
     }
     return integrate(
         region_, std::move(breaks.p), std::move(breaks.q),
-        [&](const Cell& cell) { return estimate(omega_i, cell); }, tolerance, most_receptor_cells);
+        [&](const Cell& cell) { return estimate(omega_i, cell); }, tolerance, budget_);
   }
 
  private:
+  [[nodiscard]] LobeWidth width(double cos_theta_i) const {
+    return LobeWidth(lobe_.shape->slope_width(parameter_, cos_theta_i), cos_theta_i);
+  }
+  [[nodiscard]] std::optional<Peak> peak(const Vector3& omega_i) const {
+    const LobeWidth along = width(omega_i.z());
+    return peak_in(region_.frame(), mirrored(omega_i), is_turned_ ? along.turned() : along);
+  }
+
   CellEstimate estimate(const Vector3& omega_i, const Cell& cell) {
     nodes_.place(region_, cell, rule_);
     const Index n = rule_.size();
@@ -75,9 +89,11 @@ class ReceptorIntegral {
 
   const Lobe& lobe_;
   double parameter_;
+  bool is_turned_;  // the circle's u and v
   Region region_;
   const ColourSeries& series_;
   const VectorXd& functional_;
+  std::size_t& budget_;
   Plan plan_;
   SquareRule rule_;
   CellNodes nodes_;
@@ -106,15 +122,13 @@ Flux LobeFlux::operator()() const {
 Integral LobeFlux::moments(double parameter, double tolerance) const {
   const Index terms = functional_.size();
   const Region source(geometry_.source);
-  const double relative = std::clamp(tolerance / incident_, 1e-15, 1e-3);
+  constexpr double planned = 0.2;  // of the tolerance: cells count their errors fivefold
+  const double relative = std::clamp(planned * tolerance / incident_, 1e-15, 1e-3);
   const Vector3& axis = geometry_.source.frame().axis;
-  const SlopeWidth slope = lobe_.shape->slope_width(parameter, std::max(axis.z(), 0.0));
-  const Plan receptor_plan(geometry_.receptor,
-                           peak_in(geometry_.receptor.frame(), mirrored(axis), slope, axis.z()),
-                           relative);
-  ReceptorIntegral receptor(lobe_, parameter, geometry_.receptor, series_, functional_,
-                            receptor_plan);
-  const auto edges = receptor_edges(geometry_, slope);
+  std::size_t budget = most_cells;
+  ReceptorIntegral receptor(lobe_, parameter, geometry_, series_, functional_, relative, budget);
+  const auto edges =
+      receptor_edges(geometry_, LobeWidth(lobe_.shape->slope_width(parameter, axis.z()), axis.z()));
   const Plan plan(geometry_.source, scale_over_source(geometry_.source, edges), relative);
   Breaks breaks;
   for (std::size_t i = 0; i < edges.size(); ++i) {
@@ -126,7 +140,17 @@ Integral LobeFlux::moments(double parameter, double tolerance) const {
   }
   const double inner_tolerance = 0.25 * tolerance / incident_;
   const SquareRule rule(source, plan.p.gauss_points, plan.q.gauss_points);
+  // Light from both sides of the plane of measurement is reflected alike: one side is enough.
+  const bool is_symmetric = geometry_.source.is_symmetric() && geometry_.receptor.is_symmetric();
+  if (is_symmetric) {
+    breaks.make_q_symmetric();
+  }
   const auto estimate = [&](const Cell& cell) {
+    if (is_symmetric && cell.q_high <= 0.0) {
+      return CellEstimate{.value = VectorXd::Zero(terms + 1)};
+    }
+    const double sides = is_symmetric && cell.q_low >= 0.0 ? 2.0 : 1.0;
+    const bool both_sides = is_symmetric && cell.q_low == -cell.q_high;
     CellNodes nodes;
     nodes.place(source, cell, rule);
     const Index n = rule.size();
@@ -134,20 +158,30 @@ Integral LobeFlux::moments(double parameter, double tolerance) const {
     omega_i.resize(n);
     ArrayXd& factor = nodes.area;  // becomes cos i d omega_i, but for the weights of the rule
     kernel::tangent_directions(source.frame(), nodes.u, nodes.v, omega_i, factor);
-    ArrayXd control(n);
+    factor *= sides;
+    ArrayXd control = ArrayXd::Zero(n);
+    std::vector<Integral> inner;
+    inner.resize(std::size_t(n));
     CellEstimate result{.value = VectorXd::Zero(terms + 1)};  // the last one is the inner error
     for (Index j = 0; j < n; ++j) {
-      const Integral inner = receptor({omega_i.x(j), omega_i.y(j), omega_i.z(j)}, inner_tolerance);
-      control(j) = factor(j) * functional_.dot(inner.value);
+      if (rule.weight(j) == 0.0) {
+        continue;
+      }
+      const Index opposite = both_sides ? rule.opposite_in_q(j) : j;
+      Integral& at_node = inner[std::size_t(j)];
+      at_node = opposite < j
+                    ? inner[std::size_t(opposite)]
+                    : receptor({omega_i.x(j), omega_i.y(j), omega_i.z(j)}, inner_tolerance);
+      control(j) = factor(j) * functional_.dot(at_node.value);
       const double weight = rule.weight(j) * factor(j);
-      result.value.head(terms) += weight * inner.value;
-      result.value(terms) += weight * inner.error;
+      result.value.head(terms) += weight * at_node.value;
+      result.value(terms) += weight * at_node.error;
     }
     result.set_errors(rule, control);
     return result;
   };
   Integral sum = integrate(source, std::move(breaks.p), std::move(breaks.q), estimate,
-                           0.75 * tolerance, most_source_cells);
+                           0.75 * tolerance, budget);
   sum.error += sum.value(terms);
   sum.value.conservativeResize(terms);
   return sum;

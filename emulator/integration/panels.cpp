@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 namespace gonio {
 
 namespace {
 
-constexpr double growth = 3.0;  // of the distances between breaks
+constexpr double growth = 3.0;   // of the distances between breaks
+constexpr double sliver = 0.25;  // of the distance between a break and the peak
 
 /// A Gauss rule of n points, and the logarithm of c in its error c (2r)^2n for a Gaussian exp(-x^2)
 /// on a cell of half size r, relative to the cell's size: c = (n!)^3 / ((2n + 1) (2n)!^2).
@@ -60,7 +64,10 @@ void add_graded(double centre, double first, double reach, double low, double hi
       std::min(std::max(std::abs(centre - low), std::abs(centre - high)), reach);
   for (double distance = first; distance < farthest; distance *= growth) {
     for (const double x : {centre - distance, centre + distance}) {
-      if (x > low && x < high) {
+      // What a break would cut off by the edge, if it is small, the rule of its neighbour takes
+      // too.
+      const double least = sliver * distance;
+      if (x > low + least && x < high - least) {
         breaks.push_back(x);
       }
     }
@@ -69,19 +76,26 @@ void add_graded(double centre, double first, double reach, double low, double hi
 
 }  // namespace
 
-std::optional<Peak> peak_in(const Frame& frame, const Vector3& omega, const SlopeWidth& slope,
-                            double cos_theta_d) {
+LobeWidth::LobeWidth(const SlopeWidth& slope, double cos_theta_d)
+    : u(2.0 * slope.x), v(2.0 * slope.y * std::abs(cos_theta_d)) {}
+
+LobeWidth LobeWidth::turned() const {
+  LobeWidth result = *this;
+  std::swap(result.u, result.v);
+  return result;
+}
+
+std::optional<Peak> peak_in(const Frame& frame, const Vector3& omega, const LobeWidth& width) {
   constexpr double widest = 0.5;  // cosines alone change over that
   const auto point = project(frame, omega);
   if (!point) {
     return std::nullopt;
   }
   const double stretch = 1.0 + point->u * point->u + point->v * point->v;
-  return Peak{*point, std::min(2.0 * slope.x * stretch, widest),
-              std::min(2.0 * slope.y * std::abs(cos_theta_d) * stretch, widest)};
+  return Peak{*point, std::min(width.u * stretch, widest), std::min(width.v * stretch, widest)};
 }
 
-std::vector<Peak> receptor_edges(const MeasuringGeometry& geometry, const SlopeWidth& slope) {
+std::vector<Peak> receptor_edges(const MeasuringGeometry& geometry, const LobeWidth& width) {
   const Aperture edge = geometry.receptor.mirrored();
   const double middle_u = 0.5 * (edge.u_low() + edge.u_high());
   const double middle_v = 0.5 * (edge.v_low() + edge.v_high());
@@ -90,8 +104,7 @@ std::vector<Peak> receptor_edges(const MeasuringGeometry& geometry, const SlopeW
        {PlanePoint{edge.u_low(), middle_v}, PlanePoint{edge.u_high(), middle_v},
         PlanePoint{middle_u, edge.v_low()}, PlanePoint{middle_u, edge.v_high()}}) {
     const Vector3 omega = edge.frame().direction(at.u, at.v);
-    const auto peak =
-        peak_in(geometry.source.frame(), omega, slope, geometry.source.frame().axis.z());
+    const auto peak = peak_in(geometry.source.frame(), omega, width);
     if (!peak) {
       return {};
     }
@@ -141,6 +154,19 @@ void Breaks::add_v(const Region& region, const Peak& peak, const AxisPlan& plan,
     const double width = peak.width_v / half;
     add_graded(centre, plan.first_break * width, reach * width, -1.0, 1.0, q);
   }
+}
+
+void Breaks::make_q_symmetric() {
+  constexpr double closest = 1e-8;  // farther than cells may be narrow, so that none is dropped
+  std::sort(q.begin(), q.end());
+  std::vector<double> result;
+  for (const double x : q) {
+    if (x > closest && (result.empty() || x > result.back() + closest)) {
+      result.push_back(x);
+    }
+  }
+  q = result;
+  std::transform(result.begin(), result.end(), std::back_inserter(q), std::negate<>());
 }
 
 }  // namespace gonio

@@ -38,8 +38,18 @@ std::function<Eigen::ArrayXd(const WavelengthGrid&)> same_everywhere(double valu
   };
 }
 
+/// Above this nothing can be computed, and no material reflects visible light like that.
+constexpr double largest = 1000.0;
+
+Range n_range() { return {.low = 0.0, .high = largest, .low_open = true}; }
+Range k_range() { return Range::closed(0.0, largest); }
+
 bool is_refractive_index(double n, double k) {
-  return std::isfinite(n) && std::isfinite(k) && n > 0.0 && k >= 0.0;
+  return n_range().contains(n) && k_range().contains(k);
+}
+
+std::string expected_index() {
+  return fmt::format("n{} and k{}", n_range().text(), k_range().text());
 }
 
 std::vector<double> numbers_in(const std::string& line, const SourceMark& mark) {
@@ -189,8 +199,8 @@ Material read_material(const YamlNode& file) {
 
 RefractiveIndex RefractiveIndex::constant(std::complex<double> n_hat) {
   if (!is_refractive_index(n_hat.real(), n_hat.imag())) {
-    throw std::domain_error(fmt::format("RefractiveIndex: n = {}, k = {}; needs n > 0, k >= 0",
-                                        n_hat.real(), n_hat.imag()));
+    throw std::domain_error(fmt::format("RefractiveIndex: n = {}, k = {}; needs {}", n_hat.real(),
+                                        n_hat.imag(), expected_index()));
   }
   RefractiveIndex index;
   index.n_ = same_everywhere(n_hat.real());
@@ -216,17 +226,17 @@ RefractiveIndex RefractiveIndex::load(const std::filesystem::path& path, const S
 
 RefractiveIndex RefractiveIndex::read(const YamlNode& node) {
   if (node.is_scalar()) {
-    return constant(node.number(Range::positive()));
+    return constant(node.number(n_range()));
   }
   if (!node.is_map()) {
     node.fail("a number, {n: ..., k: ...} or {file: ...}");
   }
   return node.read_map([](YamlMap& map) {
     if (const auto file = map.optional("file")) {
-      return load(file->file_path(), file->mark());
+      return load(file->file(), file->mark());
     }
-    const double n = map.required("n").number(Range::positive());
-    return constant({n, map.required("k").number(Range::not_negative())});
+    const double n = map.required("n").number(n_range());
+    return constant({n, map.required("k").number(k_range())});
   });
 }
 
@@ -242,7 +252,7 @@ Eigen::ArrayXcd RefractiveIndex::sample(const WavelengthGrid& grid) const {
   for (Eigen::Index i = 0; i < grid.size(); ++i) {
     if (!is_refractive_index(n(i), k(i))) {
       throw InputError(
-          mark_, "n > 0 and k >= 0",
+          mark_, expected_index(),
           fmt::format("n = {:g}, k = {:g} at {:g} nm", n(i), k(i), grid.nanometres()(i)));
     }
     n_hat(i) = {n(i), k(i)};

@@ -13,11 +13,11 @@
 namespace gonio {
 
 /// The complex refractive index n + ik of a material over wavelength, relative to air;
-/// n > 0, k >= 0. Tables are linear between their points; nothing is extrapolated.
+/// n in (0, 1000], k in [0, 1000]. Tables are linear between their points; nothing is extrapolated.
 class RefractiveIndex {
  public:
   /// The same index at every wavelength.
-  /// @param n_hat  n + ik, n > 0, k >= 0, finite.
+  /// @param n_hat  n + ik, n in (0, 1000], k in [0, 1000].
   /// @throws std::domain_error  if n_hat is outside its range.
   [[nodiscard]] static RefractiveIndex constant(std::complex<double> n_hat);
 
@@ -37,7 +37,7 @@ class RefractiveIndex {
   /// @throws InputError  as for sample().
   [[nodiscard]] std::complex<double> at(Wavelength lambda) const;
   /// n + ik on a grid, shape (grid.size()).
-  /// @throws InputError  if the data do not cover the grid, or give n <= 0 or k < 0 on it.
+  /// @throws InputError  if the data do not cover the grid, or give n or k outside its range on it.
   [[nodiscard]] Eigen::ArrayXcd sample(const WavelengthGrid& grid) const;
 
   [[nodiscard]] Wavelength first() const { return first_; }  ///< 0 for a constant

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <map>
 #include <mutex>
 #include <stdexcept>
@@ -13,19 +14,27 @@ namespace gonio {
 
 namespace {
 
+bool contains(const std::vector<std::string>& ids, const std::string& id) {
+  return std::find(ids.begin(), ids.end(), id) != ids.end();
+}
+
 std::vector<std::string> geometries_asked_for(const Standard& standard,
                                               const MeasureOptions& options) {
   std::vector<std::string> known;
   for (const GeometryLimits& geometry : standard.geometries) {
     known.push_back(geometry.id);
   }
+  std::vector<std::string> asked;
   for (const std::string& id : options.geometries) {
-    if (std::find(known.begin(), known.end(), id) == known.end()) {
+    if (!contains(known, id)) {
       throw std::invalid_argument(fmt::format("{} has the geometries {}, not '{}'", standard.id,
                                               fmt::join(known, ", "), id));
     }
+    if (!contains(asked, id)) {
+      asked.push_back(id);
+    }
   }
-  return options.geometries.empty() ? known : options.geometries;
+  return asked.empty() ? known : asked;
 }
 
 std::optional<ReflectedColour> reflected_colour(const GlossReading& reading,

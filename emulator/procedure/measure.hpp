@@ -14,7 +14,7 @@ namespace gonio {
 
 /// How a measurement is done.
 struct MeasureOptions {
-  std::vector<std::string> geometries = {};  ///< ids; empty for all of the standard
+  std::vector<std::string> geometries = {};  ///< ids, each measured once; empty for all
   double tolerance = 1e-4;                   ///< of the integrator, in the unit of the scale
   Angle tilt = {};                           ///< of the sample in the plane of measurement
 };

@@ -10,7 +10,12 @@
 
 namespace gonio {
 
+namespace fs = std::filesystem;
+
 namespace {
+
+/// Largest refractive index of a reference: above it nothing can be computed.
+constexpr double largest_index = 1000.0;
 
 const std::vector<std::string>& evidence_levels() {
   static const std::vector<std::string> levels{"C2",   "C1+calc", "C1",
@@ -52,9 +57,10 @@ Stated<Angle> read_angle(const YamlNode& node, const Range& range) {
   });
 }
 
-Stated<double> read_number(const YamlNode& node) {
-  return read_stated<double>(
-      node, [](const YamlNode& value, bool) { return value.number(Range::positive()); });
+Stated<double> read_number(const YamlNode& node, const Range& range = Range::positive()) {
+  return read_stated<double>(node, [&](const YamlNode& value, bool is_tolerance) {
+    return value.number(is_tolerance ? Range::positive() : range);
+  });
 }
 
 Stated<Wavelength> read_wavelength(const YamlNode& node) {
@@ -82,18 +88,38 @@ ApertureLimits read_aperture(const YamlNode& node) {
   });
 }
 
-/// A geometry of another standard, which stands in <family>/<edition> of the same folder.
-GeometryLimits read_same_as(const YamlNode& node, const std::string& id) {
+/// Where standards are looked up, and those being read: each borrows from the next.
+struct Library {
+  const Catalog& catalog;
+  std::vector<fs::path> being_read = {};
+};
+
+Standard load_from(const fs::path& path, Library library);
+
+/// The file of a standard that another one borrows from: <family>/<edition> in the same folder, or
+/// as the catalog knows it.
+fs::path borrowed_file(const YamlNode& node, const Library& library) {
+  const fs::path folder = fs::path(node.mark().file).parent_path();
+  const fs::path sibling =
+      (folder / ".." / ".." / node.text() / "standard.yaml").lexically_normal();
+  std::error_code error;
+  const fs::path file = fs::is_regular_file(sibling, error)
+                            ? sibling
+                            : library.catalog.find(Catalog::Kind::standard, node);
+  for (const fs::path& borrower : library.being_read) {
+    if (fs::equivalent(borrower, file)) {
+      node.fail("a standard that does not borrow from this one");
+    }
+  }
+  return file;
+}
+
+/// A geometry of another standard.
+GeometryLimits read_same_as(const YamlNode& node, const std::string& id, const Library& library) {
   return node.read_map([&](YamlMap& map) {
     const YamlNode other = map.required("standard");
     const YamlNode geometry = map.required("geometry");
-    const std::filesystem::path here(node.mark().file);
-    const auto standards = here.parent_path().parent_path().parent_path();
-    const auto path = (standards / other.text() / "standard.yaml").lexically_normal();
-    if (!std::filesystem::is_regular_file(path)) {
-      other.fail("a standard of " + standards.string());
-    }
-    const Standard standard = load_standard(path);
+    const Standard standard = load_from(borrowed_file(other, library), library);
     for (const GeometryLimits& candidate : standard.geometries) {
       if (candidate.id == geometry.text()) {
         GeometryLimits result = candidate;
@@ -105,11 +131,11 @@ GeometryLimits read_same_as(const YamlNode& node, const std::string& id) {
   });
 }
 
-GeometryLimits read_geometry(const YamlNode& node) {
+GeometryLimits read_geometry(const YamlNode& node, const Library& library) {
   return node.read_map([&](YamlMap& map) {
-    const std::string id = map.required("id").text();
+    const std::string id = map.required("id").line();
     if (const auto same_as = map.optional("same_as")) {
-      return read_same_as(*same_as, id);
+      return read_same_as(*same_as, id, library);
     }
     GeometryLimits limits{.id = id,
                           .theta_i = read_angle(map.required("theta_i"), incidence_range()),
@@ -132,7 +158,7 @@ GeometryLimits read_geometry(const YamlNode& node) {
 
 Scale read_scale(const YamlNode& node) {
   return node.read_map([](YamlMap& map) {
-    const std::string unit = map.required("unit").text();
+    const std::string unit = map.required("unit").line();
     const bool is_glass =
         map.required("relative_to").choice({"reference_glass", "incident_flux"}) ==
         "reference_glass";
@@ -140,7 +166,8 @@ Scale read_scale(const YamlNode& node) {
                 .reference = is_glass ? Scale::Reference::glass : Scale::Reference::incident_flux,
                 .value = read_number(map.required("value"))};
     if (is_glass) {
-      scale.refractive_index = read_number(map.required("refractive_index"));
+      scale.refractive_index = read_number(map.required("refractive_index"),
+                                           {.low = 0.0, .high = largest_index, .low_open = true});
       if (const auto wavelength = map.optional("reference_wavelength")) {
         scale.reference_wavelength = read_wavelength(*wavelength);
       }
@@ -154,7 +181,7 @@ SpectralTable read_spectrum(const YamlNode& node) {
   return node.read_map([](YamlMap& map) {
     const auto column = map.optional("column");
     (void)read_evidence(map.required("evidence"));
-    return SpectralTable::load(map.required("file").file_path(),
+    return SpectralTable::load(map.required("file").file(),
                                column ? std::optional(column->text()) : std::nullopt);
   });
 }
@@ -182,7 +209,7 @@ Selection read_selection(const YamlNode& node) {
 
 HazeRule read_haze(const YamlNode& node) {
   return node.read_map([](YamlMap& map) {
-    HazeRule rule{.id = map.required("id").text(),
+    HazeRule rule{.id = map.required("id").line(),
                   .from = map.required("from").text(),
                   .minus = map.required("minus").text(),
                   .only_above = {},
@@ -223,7 +250,7 @@ void expect_geometries(const Standard& standard, const YamlNode& node) {
   }
 }
 
-Standard read_standard(YamlMap& map, const std::filesystem::path& path) {
+Standard read_standard(YamlMap& map, const fs::path& path, const Library& library) {
   map.expect_schema("gonio/standard/1");
   std::optional<SpectralTable> source;
   std::optional<SpectralTable> responsivity;
@@ -233,9 +260,9 @@ Standard read_standard(YamlMap& map, const std::filesystem::path& path) {
     return true;
   });
   Standard standard{.file = path,
-                    .id = map.required("id").text(),
-                    .title = map.required("title").text(),
-                    .edition = map.required("edition").text(),
+                    .id = map.required("id").line(),
+                    .title = map.required("title").line(),
+                    .edition = map.required("edition").line(),
                     .transcription = map.required("transcription").choice({"partial", "complete"}),
                     .scale = read_scale(map.required("scale")),
                     .source = *source,
@@ -244,7 +271,7 @@ Standard read_standard(YamlMap& map, const std::filesystem::path& path) {
     standard.notes = notes->text();
   }
   for (const YamlNode& item : map.required("geometries").list()) {
-    standard.geometries.push_back(read_geometry(item));
+    standard.geometries.push_back(read_geometry(item, library));
   }
   if (const auto selection = map.optional("selection")) {
     standard.selection = read_selection(*selection);
@@ -263,6 +290,12 @@ Standard read_standard(YamlMap& map, const std::filesystem::path& path) {
   }
   expect_geometries(standard, map.node());
   return standard;
+}
+
+Standard load_from(const fs::path& path, Library library) {
+  library.being_read.push_back(path);
+  return YamlNode::load(path).read_map(
+      [&](YamlMap& map) { return read_standard(map, path, library); });
 }
 
 }  // namespace
@@ -285,7 +318,8 @@ const Stated<Angle>& ApertureSize::known() const {
 }
 
 Evidence GeometryLimits::evidence() const {
-  Evidence weakest = theta_i.evidence;
+  Evidence weakest =
+      theta_r ? Evidence::weaker(theta_i.evidence, theta_r->evidence) : theta_i.evidence;
   for (const ApertureLimits* aperture : {&source, &receptor}) {
     for (const auto* size : {&aperture->in_plane, &aperture->perpendicular, &aperture->diameter}) {
       if (*size && (*size)->value) {
@@ -320,8 +354,8 @@ std::optional<std::string> Standard::select_geometry(
   return selection->first;
 }
 
-Standard load_standard(const std::filesystem::path& path) {
-  return YamlNode::load(path).read_map([&](YamlMap& map) { return read_standard(map, path); });
+Standard load_standard(const fs::path& path, const Catalog& catalog) {
+  return load_from(path, {.catalog = catalog});
 }
 
 }  // namespace gonio

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "emulator/core/angle.hpp"
+#include "emulator/core/catalog.hpp"
 #include "emulator/core/input_error.hpp"
 #include "emulator/core/length.hpp"
 #include "emulator/core/table.hpp"
@@ -123,7 +124,11 @@ struct Standard {
 };
 
 /// Reads a file of schema gonio/standard/1.
+/// @param catalog  where the standards of `same_as` are looked up that do not stand beside this
+/// one,
+///                 as <family>/<edition>.
 /// @throws InputError  for anything that is not as the schema says.
-[[nodiscard]] Standard load_standard(const std::filesystem::path& path);
+[[nodiscard]] Standard load_standard(const std::filesystem::path& path,
+                                     const Catalog& catalog = Catalog());
 
 }  // namespace gonio

@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "emulator/optics/fresnel.hpp"
+#include "emulator/surface/albedo.hpp"
 #include "emulator/surface/shape_kernels.hpp"
 
 namespace gonio {
@@ -142,44 +143,25 @@ Surface with_diffuse(const WavelengthGrid& grid, Lobe specular, const Amplitudes
   if (amplitudes.diffuse.size() > 0) {
     const double sum = amplitudes.specular + amplitudes.diffuse.maxCoeff();
     expect(sum <= 1.0 + rounding, "k_d + k_s must be <= 1", sum);
-    surface.lobes.push_back(lambertian_lobe(amplitudes.diffuse));
-  }
-  return surface;
-}
-
-/// int f_r cos over the hemisphere of a Beckmann lobe of index n, at one incidence. The half vector
-/// is drawn from its own distribution, in equal steps of its cumulated probability and its azimuth.
-double rough_interface_reflectance(double m, double n, double cos_theta_i) {
-  constexpr int slopes = 96;
-  constexpr int azimuths = 64;
-  const double sin_theta_i = std::sqrt(1.0 - cos_theta_i * cos_theta_i);
-  double sum = 0.0;
-  for (int a = 0; a < slopes; ++a) {
-    const double tan_a = m * std::sqrt(-std::log((a + 0.5) / slopes));
-    for (int b = 0; b < azimuths; ++b) {
-      const double hx = tan_a * std::cos(2.0 * pi * (b + 0.5) / azimuths);  // with hz = 1
-      const double per_h = 1.0 / std::sqrt(1.0 + tan_a * tan_a);
-      const double cos_d = (hx * sin_theta_i + cos_theta_i) * per_h;
-      const double cos_r = 2.0 * cos_d * per_h - cos_theta_i;
-      if (cos_d <= 0.0 || cos_r <= 0.0) {
-        continue;
-      }
-      const double shadow = 2.0 * per_h * std::min(cos_theta_i, cos_r) / cos_d;
-      sum += fresnel_reflectance(std::min(cos_d, 1.0), n) * std::min(1.0, shadow) * cos_d /
-             (cos_theta_i * per_h);
+    if ((amplitudes.diffuse > 0.0).any()) {
+      surface.lobes.push_back(lambertian_lobe(amplitudes.diffuse));
     }
   }
-  return sum / (slopes * azimuths);
+  return surface;
 }
 
 /// The largest factor <= 1 on what passes a rough interface twice that keeps eq. (7).
 double transmitted_share(double m, double n) {
   constexpr int incidences = 90;
+  constexpr double margin = 1e-5;  // between the incidences, and of lobe_albedo
+  const BeckmannShape shape(m);
   double share = 1.0;
   for (int i = 0; i < incidences; ++i) {
     const double cos_theta_i = (i + 0.5) / incidences;
-    share = std::min(share, (1.0 - rough_interface_reflectance(m, n, cos_theta_i)) /
-                                (1.0 - fresnel_reflectance(cos_theta_i, n)));
+    const double reflected =
+        lobe_albedo(shape, 0.0, cos_theta_i, [n](double c) { return fresnel_reflectance(c, n); });
+    share =
+        std::min(share, (1.0 - margin - reflected) / (1.0 - fresnel_reflectance(cos_theta_i, n)));
   }
   return share;
 }

@@ -56,7 +56,10 @@ struct Amplitudes {
 ///
 /// That is the second moment of the series of Beckmann and Spizzichino for every g, and has both
 /// its limits: the slopes of the surface for a rough one (m = 2 sigma / T), diffraction by the
-/// correlation length for a smooth one (m = lambda / (2 pi T cos theta)).
+/// correlation length for a smooth one (m = lambda / (2 pi T cos theta)). Towards grazing angles
+/// the lobe is weakened by cos^2 / (cos^2 + m^2 sin^2) for each direction, without which it would
+/// scatter more than the mirror direction loses, by up to a factor of 2, and break eq. (7); a lobe
+/// that is narrow against its distance from the horizon carries all of the rest.
 /// @param rms_height          sigma, >= 0.
 /// @param correlation_length  T of exp(-x^2 / T^2), > 0.
 /// @see Davies, Proc. IEE 101, 209 (1954); Beckmann and Spizzichino (1963), section 5.3

@@ -28,7 +28,7 @@ ArrayXd read_reflectance(const YamlNode& node, const WavelengthGrid& grid) {
     return ArrayXd::Constant(grid.size(), node.number(Range::closed(0.0, 1.0)));
   }
   const SpectralTable table = SpectralTable::load(node);
-  const ArrayXd spectrum = table.sample(grid);
+  ArrayXd spectrum = table.sample(grid);
   if (spectrum.minCoeff() < 0.0 || spectrum.maxCoeff() > 1.0) {
     throw InputError(table.mark(), "a reflectance in [0, 1] at all wavelengths",
                      fmt::format("{:g} to {:g}", spectrum.minCoeff(), spectrum.maxCoeff()));
@@ -169,8 +169,8 @@ Sample load_sample(const std::filesystem::path& path, const WavelengthGrid& grid
   return YamlNode::load(path).read_map([&](YamlMap& map) {
     map.expect_schema("gonio/sample/1");
     Sample sample{.file = path, .surface = {.grid = grid}};
-    sample.id = map.required("id").text();
-    sample.title = map.required("title").text();
+    sample.id = map.required("id").id();
+    sample.title = map.required("title").line();
     if (const auto notes = map.optional("notes")) {
       sample.notes = notes->text();
     }

@@ -45,6 +45,18 @@ GONIO_INLINE double exp_of_negative(double x) {
   return sum * std::bit_cast<double>(exponent);
 }
 
+/// 1 - exp(-x) for x >= 0, to 1e-14 relative; no branch.
+GONIO_INLINE double one_minus_exp_of_negative(double x) {
+  constexpr double small = 0.02;
+  double series = 1.0 - x * (1.0 / 7.0);
+  series = 1.0 - x * (1.0 / 6.0) * series;
+  series = 1.0 - x * (1.0 / 5.0) * series;
+  series = 1.0 - x * (1.0 / 4.0) * series;
+  series = 1.0 - x * (1.0 / 3.0) * series;
+  series = x * (1.0 - x * 0.5 * series);
+  return x < small ? series : 1.0 - exp_of_negative(-x);
+}
+
 /// What a kernel needs of a pair of directions; h = omega_i + omega_r is not normalised.
 struct Pair {
   double hx, hy, hz;
@@ -113,11 +125,14 @@ GONIO_CLONES void beckmann_v_groove(double m, const Vector3& omega_i, const Dire
 GONIO_CLONES void beckmann_diffracting(double slope, double k_sigma, const Vector3& omega_i,
                                        const DirectionBatch& omega_r, Eigen::Ref<ArrayXd> g) {
   const double per_slope2 = 1.0 / (slope * slope);
-  const double half_k2 = 0.5 * k_sigma * k_sigma;
+  const double k2 = k_sigma * k_sigma;
+  const auto per_m2 = [=](double c2) { return per_slope2 * one_minus_exp_of_negative(k2 * c2); };
+  const auto weakened = [=](double c2) { return c2 / (c2 + (1.0 - c2) / per_m2(c2)); };
+  const double at_i = weakened(omega_i.z() * omega_i.z());
   for_each_pair(omega_i, omega_r, g, [=](const Pair& pair) {
-    const double per_m2 = per_slope2 * (1.0 - exp_of_negative(-half_k2 * pair.half_h2));
-    return exp_of_negative(-pair.tan2_a() * per_m2) * (per_m2 / pi) * pair.inverse_cos4_a() *
-           pair.v_groove();
+    const double at_d = per_m2(0.5 * pair.half_h2);
+    return at_i * weakened(pair.cos_r * pair.cos_r) * exp_of_negative(-pair.tan2_a() * at_d) *
+           (at_d / pi) * pair.inverse_cos4_a() * pair.v_groove();
   });
 }
 

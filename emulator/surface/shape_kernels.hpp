@@ -18,8 +18,9 @@ namespace gonio::kernel {
 void beckmann_v_groove(double m, const Vector3& omega_i, const DirectionBatch& omega_r,
                        Eigen::Ref<Eigen::ArrayXd> g);
 
-/// The same with an rms slope that depends on the angle, m^2 = slope^2 / (1 - exp(-phase^2)) with
-/// phase = k_sigma cos d.
+/// The same with an rms slope that depends on the angle, m(c)^2 = slope^2 / (1 - exp(-(k_sigma
+/// c)^2)) at c = cos d, and weakened towards grazing angles by w(cos i) w(cos r), w(c) = c^2 / (c^2
+/// + m(c)^2 (1 - c^2)).
 /// @param slope    2 sigma / T, rms slope of a Gaussian surface in geometrical optics, > 0.
 /// @param k_sigma  4 pi sigma / lambda, > 0.
 void beckmann_diffracting(double slope, double k_sigma, const Vector3& omega_i,

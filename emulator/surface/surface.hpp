@@ -18,7 +18,8 @@ struct SlopeWidth {
   double y = std::numeric_limits<double>::infinity();
 };
 
-/// The geometry factor g of a lobe. Reciprocal, not negative, zero below the horizon.
+/// The geometry factor g of a lobe. Reciprocal, not negative, zero below the horizon, and the same
+/// for a pair of directions as for that pair with both y reversed.
 class Shape {
  public:
   virtual ~Shape() = default;
@@ -30,7 +31,7 @@ class Shape {
   virtual void evaluate(double parameter, const Vector3& omega_i, const DirectionBatch& omega_r,
                         Eigen::Ref<Eigen::ArrayXd> g) const = 0;
 
-  /// @param cos_theta_d  cosine of the angle between the half vector and either direction.
+  /// @param cos_theta_d  cosine of the angle between the half vector and either direction, > 0.
   [[nodiscard]] virtual SlopeWidth slope_width(double parameter, double cos_theta_d) const = 0;
 };
 

@@ -13,10 +13,9 @@ inline testing::AssertionResult is_close(double got, double expected, double tol
   if (error <= tolerance) {
     return testing::AssertionSuccess();
   }
-  return testing::AssertionFailure()
-         << "got " << testing::PrintToString(got) << ", expected "
-         << testing::PrintToString(expected) << ", error " << error << ", error over tolerance "
-         << error / tolerance;
+  return testing::AssertionFailure() << "got " << testing::PrintToString(got) << ", expected "
+                                     << testing::PrintToString(expected) << ", error " << error
+                                     << ", error over tolerance " << error / tolerance;
 }
 
 /// The same with a tolerance relative to what is expected.

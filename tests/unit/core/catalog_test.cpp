@@ -102,6 +102,23 @@ TEST(CatalogFind, SaysThatAFolderIsNoFile) {
               testing::EndsWith("found 'a folder'"));
 }
 
+TEST(CatalogFind, BlamesThePlaceInAYamlFileThatNamesWhatIsNotThere) {
+  const TemporaryFolder folder;
+  const fs::path root = make_root(folder.path() / "root", {"copper"});
+  const fs::path mine = folder.file("mine.yaml", "x");
+  const auto found = [&](const Catalog& catalog, const std::string& text) {
+    const YamlNode file = YamlNode::parse("x: " + text + "\n", folder.path() / "a.yaml");
+    return catalog.find(Kind::sample, YamlMap(file).required("x"));
+  };
+  EXPECT_EQ(found(Catalog({root}), "copper"), root / "fixtures/samples/copper.yaml");
+  EXPECT_EQ(found(Catalog({root}), "mine.yaml"), mine);
+  EXPECT_THAT(message_of([&] { (void)found(Catalog({root}), "gold"); }),
+              testing::EndsWith("/a.yaml:1:4: x: expected a sample file, or one of the ids copper, "
+                                "found 'gold'"));
+  EXPECT_THAT(message_of([&] { (void)found(Catalog(), "gold"); }),
+              testing::EndsWith("/a.yaml:1:4: x: expected a sample file, found 'gold'"));
+}
+
 TEST(CatalogList, IsOrderedByIdAndHasEachOnce) {
   const TemporaryFolder folder;
   const Catalog catalog(

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -38,12 +39,12 @@ class TerminalOnStderr {
 
   /// Ends it. @return  what was written.
   std::string text() {
-    fcntl(master_, F_SETFL, O_NONBLOCK);
-    std::fflush(stderr);
-    std::string text(1 << 16, '\0');
-    const ssize_t size = read(master_, text.data(), text.size());
-    text.resize(size < 0 ? 0 : std::size_t(size));
-    restore();
+    restore();  // nobody writes any more, so that reading comes to an end
+    std::string text;
+    std::array<char, 4096> part{};
+    for (ssize_t size = 0; (size = read(master_, part.data(), part.size())) > 0;) {
+      text.append(part.data(), std::size_t(size));
+    }
     return text;
   }
 

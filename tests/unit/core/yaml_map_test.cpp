@@ -165,6 +165,16 @@ TEST(YamlNodeLoad, NamesTheFileInItsMessages) {
             path.string() + ":1:4: a: expected a number, found 'many'");
 }
 
+TEST(YamlNodeLoad, RefusesBytesThatAreNoText) {
+  const std::string expected = "expected UTF-8 text without control characters, found 'the ";
+  EXPECT_EQ(parse_error("a: 1\nb: \xff\n"), "a.yaml:2:4: " + expected + "byte 0xFF'");
+  EXPECT_EQ(parse_error("# \xe9\na: 1\n"), "a.yaml:1:3: " + expected + "byte 0xE9'");
+  EXPECT_EQ(parse_error("a: \x07\n"), "a.yaml:1:4: " + expected + "control character U+0007'");
+  EXPECT_EQ(parse_error("a: 1\nb: \"\\a\"\n"),
+            "a.yaml:2:4: " + expected + "control character U+0007'");
+  EXPECT_EQ(parse_error("a: \"\u010e, a tab\\t and a line\\n\"\r\n"), "no error");
+}
+
 // Scalars.
 
 TEST(YamlNodeNumber, ReadsNumbersInRange) {
@@ -257,6 +267,43 @@ TEST(YamlNodeText, IsAScalarThatIsNotEmpty) {
   const auto text = [](const YamlNode& node) { (void)node.text(); };
   EXPECT_EQ(value_error("''", text), "a.yaml:1:4: x: expected text, found nothing");
   EXPECT_EQ(value_error("[a]", text), "a.yaml:1:4: x: expected text, found 'a list'");
+}
+
+TEST(YamlNodeLine, IsTextWithoutTabsAndLineBreaks) {
+  EXPECT_EQ(value("Polished copper, Ďurikovič").line(), "Polished copper, Ďurikovič");
+  const auto line = [](const YamlNode& node) { (void)node.line(); };
+  for (const std::string text : {"\"a\\tb\"", "\"a\\nb\"", "\"a\\rb\""}) {
+    EXPECT_EQ(value_error(text, line),
+              "a.yaml:1:4: x: expected text in one line, without tabs, found 'a b'");
+  }
+}
+
+TEST(YamlNodeId, IsOfLettersDigitsAndThreeSigns) {
+  for (const std::string text : {"copper_polished", "my-paint", "0.001000", "RAL9005"}) {
+    EXPECT_EQ(value("'" + text + "'").id(), text);
+  }
+  EXPECT_EQ(value(std::string(64, 'a')).id().size(), 64u);
+  const auto id = [](const YamlNode& node) { (void)node.id(); };
+  const std::string too_long(65, 'a');
+  for (const std::string& text :
+       {std::string("my paint"), std::string("a,b"), std::string("ä"), too_long}) {
+    EXPECT_THAT(value_error(text, id),
+                StartsWith("a.yaml:1:4: x: expected an id of letters, digits, '_', '-' and '.', "))
+        << text;
+  }
+}
+
+TEST(YamlNodeFile, IsThereOrBlamesThePlaceThatNamesIt) {
+  const TemporaryFolder folder;
+  const auto file = folder.file("b.csv", "1\n");
+  const auto error = [&](const std::string& named) {
+    const YamlNode root = YamlNode::parse("x: " + named + "\n", folder.path() / "a.yaml");
+    const std::string message = message_of([&] { (void)YamlMap(root).required("x").file(); });
+    return message.substr(message.find(":1:"));
+  };
+  EXPECT_EQ(value(file.string()).file(), file);
+  EXPECT_EQ(error("c.csv"), ":1:4: x: expected a file, found 'c.csv'");
+  EXPECT_EQ(error("."), ":1:4: x: expected a file, found 'a folder'");
 }
 
 TEST(YamlNodeFilePath, IsRelativeToTheFolderOfTheFileThatNamesIt) {

@@ -38,8 +38,8 @@ void expect_row(const Surface& surface, const GlossRow& row) {
     EXPECT_TRUE(is_close(gloss_gu(surface, collimated_glossmeter(angles_deg[i])),
                          row.gloss_gu[2 * i], printed_gu))
         << "width " << row.width << " at " << angles_deg[i] << " deg, collimated source";
-    EXPECT_TRUE(is_close(gloss_gu(surface, glossmeter(angles_deg[i])), row.gloss_gu[2 * i + 1],
-                         printed_gu))
+    EXPECT_TRUE(
+        is_close(gloss_gu(surface, glossmeter(angles_deg[i])), row.gloss_gu[2 * i + 1], printed_gu))
         << "width " << row.width << " at " << angles_deg[i] << " deg, source image";
   }
 }
@@ -109,8 +109,7 @@ TEST(ApertureIntegrator, GivesTheGlossOfSmoothSurfacesOverTheSourceImage) {
     EXPECT_TRUE(is_close(gloss_gu(smooth(one_wavelength, constant_index(1.5)), geometry), glass[i],
                          over_image_gu))
         << angles_deg[i];
-    EXPECT_TRUE(
-        is_close(gloss_gu(smooth(one_wavelength, 1.0), geometry), mirror[i], over_image_gu))
+    EXPECT_TRUE(is_close(gloss_gu(smooth(one_wavelength, 1.0), geometry), mirror[i], over_image_gu))
         << angles_deg[i];
     EXPECT_TRUE(
         is_close(gloss_gu(smooth(one_wavelength, constant_index(1.567)), geometry), 100.0, 1e-9))
@@ -145,8 +144,8 @@ TEST(ApertureIntegrator, GivesTheReflectanceIntoTheHemisphereOfCookTorrance) {
 
 /// Gloss of Cook-Torrance at 60 deg with another receptor, in plane and perpendicular.
 double gloss_60_with_receptor(double m, double in_plane_deg, double perpendicular_deg) {
-  const MeasuringGeometry geometry{
-      test::source_image(60.0), test::receptor_of({60.0, in_plane_deg, perpendicular_deg})};
+  const MeasuringGeometry geometry{test::source_image(60.0),
+                                   test::receptor_of({60.0, in_plane_deg, perpendicular_deg})};
   return gloss_gu(cook_torrance(one_wavelength, m, constant_index(1.567)), geometry);
 }
 
@@ -155,9 +154,8 @@ TEST(ApertureIntegrator, GivesTheEffectOfTheReceptorTolerancesOfIso2813) {
   struct Row {
     double m, low, nominal, high;
   };
-  for (const Row& row :
-       {Row{0.03, 62.20, 63.30, 64.38}, Row{0.05, 40.13, 41.02, 41.90},
-        Row{0.10, 17.57, 18.13, 18.68}}) {
+  for (const Row& row : {Row{0.03, 62.20, 63.30, 64.38}, Row{0.05, 40.13, 41.02, 41.90},
+                         Row{0.10, 17.57, 18.13, 18.68}}) {
     EXPECT_TRUE(is_close(gloss_60_with_receptor(row.m, 4.3, 11.5), row.low, printed)) << row.m;
     EXPECT_TRUE(is_close(gloss_60_with_receptor(row.m, 4.4, 11.7), row.nominal, printed)) << row.m;
     EXPECT_TRUE(is_close(gloss_60_with_receptor(row.m, 4.5, 11.9), row.high, printed)) << row.m;
@@ -167,9 +165,8 @@ TEST(ApertureIntegrator, GivesTheEffectOfTheReceptorTolerancesOfIso2813) {
 TEST(ApertureIntegrator, GivesTheEffectOfTheSourceTolerancesOfIso2813) {
   constexpr double printed = 0.5e-2 * (1 + 1e-6);
   const auto gloss_20_with_source = [](double m, double in_plane_deg, double perpendicular_deg) {
-    const MeasuringGeometry geometry{
-        test::source_image(20.0, in_plane_deg, perpendicular_deg),
-        test::receptor_of(test::iso_receptor(20.0))};
+    const MeasuringGeometry geometry{test::source_image(20.0, in_plane_deg, perpendicular_deg),
+                                     test::receptor_of(test::iso_receptor(20.0))};
     return gloss_gu(cook_torrance(one_wavelength, m, constant_index(1.567)), geometry);
   };
   EXPECT_TRUE(is_close(gloss_20_with_source(0.01, 0.50, 2.0), 68.40, printed));

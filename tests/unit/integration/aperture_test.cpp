@@ -39,11 +39,10 @@ TEST(Aperture, HasTheSolidAngleOfItsRectangleInTheTangentPlane) {
       const double u = std::tan(0.5 * degrees(width_deg).radians());
       const double v = std::tan(0.5 * degrees(height_deg).radians());
       const double expected = rule.integral(-u, u, [&](double x) {
-        return rule.integral(
-            -v, v, [&](double y) { return std::pow(1.0 + x * x + y * y, -1.5); });
+        return rule.integral(-v, v, [&](double y) { return std::pow(1.0 + x * x + y * y, -1.5); });
       });
-      const Aperture aperture = Aperture::rectangle(receptor_frame(degrees(60)),
-                                                    degrees(width_deg), degrees(height_deg));
+      const Aperture aperture =
+          Aperture::rectangle(receptor_frame(degrees(60)), degrees(width_deg), degrees(height_deg));
       EXPECT_TRUE(test::is_close_relative(aperture.solid_angle(), expected, 1e-12))
           << width_deg << " x " << height_deg << " deg";
     }
@@ -120,8 +119,8 @@ TEST(Aperture, IsAsWideAsItsFarthestDirection) {
   const Vector3 corner = rectangle.frame().direction(rectangle.u_high(), rectangle.v_high());
   EXPECT_TRUE(is_close(std::cos(rectangle.radius().radians()), corner.dot(rectangle.frame().axis),
                        rounding));
-  EXPECT_TRUE(is_close(
-      Aperture::circle(receptor_frame(degrees(20)), degrees(7)).radius().degrees(), 3.5, 1e-12));
+  EXPECT_TRUE(is_close(Aperture::circle(receptor_frame(degrees(20)), degrees(7)).radius().degrees(),
+                       3.5, 1e-12));
 }
 
 TEST(Aperture, IsDegenerateWithoutExtent) {
@@ -176,8 +175,8 @@ TEST(HemicubeFaces, CoverTheHemisphereOnce) {
   for (const double theta : {1.0, 20.0, 44.0, 60.0, 89.0}) {
     for (const double phi : {3.0, 50.0, 100.0, 190.0, 300.0}) {
       const double s = std::sin(degrees(theta).radians());
-      const Vector3 omega(s * std::cos(degrees(phi).radians()), s * std::sin(degrees(phi).radians()),
-                          std::cos(degrees(theta).radians()));
+      const Vector3 omega(s * std::cos(degrees(phi).radians()),
+                          s * std::sin(degrees(phi).radians()), std::cos(degrees(theta).radians()));
       int faces = 0;
       for (const Aperture& face : hemicube_faces()) {
         faces += face.contains(omega) ? 1 : 0;

@@ -46,8 +46,8 @@ TEST(TangentDirections, EqualTheFrameAndCountTheProjectedSolidAngle) {
         EXPECT_TRUE(is_close(omega.y(j), expected.y(), rounding)) << j << " of " << n;
         EXPECT_TRUE(is_close(omega.z(j), expected.z(), rounding)) << j << " of " << n;
         const double jacobian = std::pow(1.0 + u(j) * u(j) + v(j) * v(j), -1.5);
-        EXPECT_TRUE(is_close(factor(j), before(j) * jacobian * std::max(expected.z(), 0.0),
-                             rounding))
+        EXPECT_TRUE(
+            is_close(factor(j), before(j) * jacobian * std::max(expected.z(), 0.0), rounding))
             << j << " of " << n << " at " << theta;
         EXPECT_TRUE(omega.z(j) > 0.0 || factor(j) == 0.0) << j << " of " << n;
       }

@@ -45,10 +45,14 @@ class CaseSource {
     const double theta = draw_theta();
     const Aperture source = draw_source(theta);
     const Aperture receptor = draw_receptor(theta);
-    const double tolerance_gu = logarithmic("tolerance_gu", range_.least_tolerance_gu, range_.most_tolerance_gu);
+    const double tolerance_gu =
+        logarithmic("tolerance_gu", range_.least_tolerance_gu, range_.most_tolerance_gu);
     const double rho = fresnel_reflectance(std::max(source.frame().axis.z(), 0.0), 1.567);
-    return {text_.str(), std::move(surface), {source, receptor},
-            rho * ApertureIntegrator().incident(source), tolerance_gu};
+    return {text_.str(),
+            std::move(surface),
+            {source, receptor},
+            rho * ApertureIntegrator().incident(source),
+            tolerance_gu};
   }
 
  private:
@@ -58,8 +62,8 @@ class CaseSource {
     return value;
   }
   double logarithmic(const char* name, double low, double high) {
-    const double value = std::exp(
-        std::uniform_real_distribution<double>(std::log(low), std::log(high))(random_));
+    const double value =
+        std::exp(std::uniform_real_distribution<double>(std::log(low), std::log(high))(random_));
     text_ << ", " << name << " " << value;
     return value;
   }

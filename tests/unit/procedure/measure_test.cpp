@@ -46,6 +46,11 @@ TEST(MeasureGeometries, AreAllOfTheStandardUnlessSomeAreAskedFor) {
             (std::vector<std::string>{"85", "20"}));
 }
 
+TEST(MeasureGeometries, AskedForTwiceAreMeasuredOnce) {
+  EXPECT_EQ(ids_of(measured("black_satin", "iso_2813/2014", {.geometries = {"60", "20", "60"}})),
+            (std::vector<std::string>{"60", "20"}));
+}
+
 TEST(MeasureGeometries, ThatTheStandardDoesNotHaveAreRefusedByName) {
   EXPECT_THROW((void)measured("black_satin", "iso_2813/2014", {.geometries = {"45"}}),
                std::invalid_argument);

@@ -26,7 +26,7 @@ constexpr double numbers_agree = 1e-7;  // relative; other processors round othe
 struct Reported {
   Standard standard = test::shipped_standard("iso_2813/2014");
   std::vector<Measurement> measurements = measure_all(
-      {test::shipped_sample("copper_polished"), test::shipped_sample("red_satin")},
+      {test::shipped_sample("copper_polished"), test::shipped_sample("gold_smooth_johnson")},
       test::meter_by_standard("iso_2813/2014"), observer(), {.tolerance = tolerance_gu});
   [[nodiscard]] MeasurementHeader header() const {
     return {.standard = standard,

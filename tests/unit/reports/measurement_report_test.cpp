@@ -95,7 +95,9 @@ TEST(MeasurementText, NeverShowsAMinusBeforeAZero) {
   Measurement one = measurement("a", {result("60", -1e-9)});
   one.geometries.front().colour =
       ReflectedColour{.xyz = {}, .xy = {}, .lab = {0.0, -1e-15, -1e-15}};
-  EXPECT_THAT(text_of(shipped_standard("iso_2813/2014"), {one}), Not(HasSubstr("-0")));
+  one.geometries.front().reading.luminous_reflectance = -1e-12;
+  one.haze = {{.id = "haze_index", .value = -0.01}};
+  EXPECT_THAT(text_of(shipped_standard("iso_2813/2014"), {one}), Not(HasSubstr(" -0")));
 }
 
 TEST(MeasurementText, TellsOfHazeAndOfNumbersFromMemory) {
@@ -107,7 +109,8 @@ TEST(MeasurementText, TellsOfHazeAndOfNumbersFromMemory) {
   const std::string text = text_of(shipped_standard("astm_d4039/09"), {one, other});
   EXPECT_THAT(text, HasSubstr("a: haze_index 10.0 GU\n"));
   EXPECT_THAT(text, HasSubstr("b: haze_index not defined for it by the standard\n"));
-  EXPECT_THAT(text, HasSubstr("informative: numbers of geometry 60 are known from memory only\n"));
+  EXPECT_THAT(text,
+              HasSubstr("informative: geometry 60 rests on numbers known only from memory\n"));
 }
 
 TEST(MeasurementText, HasRowsOfOneWidth) {
@@ -179,6 +182,12 @@ TEST(MeasurementCsv, QuotesTextThatHoldsCommasAndQuotes) {
   const std::string csv =
       measurement_csv(header_of(standard), {measurement("red, \"new\"", {result("20", 1.0)})});
   EXPECT_THAT(csv, HasSubstr("\niso_2813/2014,\"red, \"\"new\"\"\",20,"));
+}
+
+TEST(SpectraCsv, QuotesTextThatHoldsCommasAndQuotes) {
+  const Standard standard = shipped_standard("iso_2813/2014");
+  EXPECT_THAT(spectra_csv(header_of(standard), {measurement("a, b", {result("20", 1.0)})}),
+              HasSubstr("\nwavelength_nm,\"a, b 20\"\n"));
 }
 
 TEST(SpectraCsv, HasARowForEachWavelengthAndAColumnForEachSampleAndGeometry) {

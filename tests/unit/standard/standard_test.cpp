@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -146,6 +147,48 @@ TEST(StandardSameAs, EqualsItsOriginInAllButTheId) {
               original.receptor.perpendicular->known().nominal);
     EXPECT_EQ(copy.evidence().level, original.evidence().level);
   }
+}
+
+/// user_standard() with a geometry "20" that is the "60" of another standard.
+std::string borrower_of(const std::string& standard) {
+  return user_standard() + "  - {id: \"20\", same_as: {standard: " + standard +
+         ", geometry: \"60\"}}\n";
+}
+
+/// Writes <family>/<edition>/standard.yaml.
+std::filesystem::path write_standard(const TemporaryFolder& folder, const std::string& id,
+                                     const std::string& text) {
+  std::filesystem::create_directories(folder.path() / id);
+  return folder.file(id + "/standard.yaml", text);
+}
+
+TEST(StandardSameAs, IsLookedUpBesideTheFileAndThenInTheCatalog) {
+  const TemporaryFolder folder;
+  const auto file = write_standard(folder, "house/2", borrower_of("iso_2813/2014"));
+  EXPECT_NEAR(load_standard(file, test::shipped()).geometry("20").theta_i.nominal.degrees(), 60.0,
+              rounding);
+  (void)write_standard(folder, "iso_2813/2014", replaced(user_standard(), "60 deg", "45 deg"));
+  EXPECT_NEAR(load_standard(file, test::shipped()).geometry("20").theta_i.nominal.degrees(), 45.0,
+              rounding);
+}
+
+TEST(StandardSameAs, OfAStandardThatIsNotThereIsAnErrorAtItsPlace) {
+  const TemporaryFolder folder;
+  const auto file = write_standard(folder, "house/2", borrower_of("house/3"));
+  EXPECT_EQ(message_of([&] { (void)load_standard(file); }),
+            file.string() +
+                ":27:36: geometries[1].same_as.standard: expected a standard file, "
+                "found 'house/3'");
+}
+
+TEST(StandardSameAs, MayNotLeadBack) {
+  const TemporaryFolder folder;
+  const auto one = write_standard(folder, "house/1", borrower_of("house/2"));
+  const auto two = write_standard(folder, "house/2", borrower_of("house/1"));
+  EXPECT_EQ(message_of([&] { (void)load_standard(one); }),
+            two.string() +
+                ":27:36: geometries[1].same_as.standard: expected a standard that does "
+                "not borrow from this one, found 'house/1'");
 }
 
 }  // namespace

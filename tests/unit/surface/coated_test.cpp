@@ -50,8 +50,8 @@ TEST(DiffuseFresnelReflectance, AgreesWithGaussQuadratureFromBothSides) {
   constexpr double quadrature = 1e-11;
   const test::GaussRule rule(60);
   for (const double n : {1.1, 1.33, 1.5, 1.567, 2.0, 3.0}) {
-    const double outside = rule.integral(
-        0.0, 1.0, [&](double c) { return 2.0 * c * fresnel_reflectance(c, n); });
+    const double outside =
+        rule.integral(0.0, 1.0, [&](double c) { return 2.0 * c * fresnel_reflectance(c, n); });
     EXPECT_TRUE(is_close(diffuse_fresnel_reflectance(n), outside, quadrature)) << n;
     EXPECT_TRUE(is_close(1.0 - (1.0 - diffuse_fresnel_reflectance(n)) / (n * n),
                          internal_diffuse_reflectance(n), quadrature))
@@ -63,8 +63,8 @@ TEST(Coated, EqualsSaundersonsSeriesOfReflections) {
   constexpr double series = 1e-10;
   for (const double n : {1.33, 1.5, 1.8}) {
     for (const double base : {0.05, 0.5, 0.9}) {
-      const Surface surface = coated(one_wavelength, ArrayXd::Constant(1, base),
-                                     ArrayXd::Constant(1, n), 0.0);
+      const Surface surface =
+          coated(one_wavelength, ArrayXd::Constant(1, base), ArrayXd::Constant(1, n), 0.0);
       for (const double theta_i : {0.0, 45.0, 80.0}) {
         for (const double theta_r : {10.0, 60.0, 85.0}) {
           const double got = surface.brdf(source_frame(degrees(theta_i)).axis,
@@ -103,8 +103,8 @@ TEST(Coated, TendsToItsSmoothFormWithTheSlopeOfTheInterface) {
   const ArrayXd white = ArrayXd::Ones(1);
   const ArrayXd n = ArrayXd::Constant(1, 1.5);
   for (const double theta : {0.0, 20.0, 60.0}) {
-    const auto rough = test::hemispherical_reflectance(
-        coated(one_wavelength, white, n, 1e-3), theta, 1e-8);
+    const auto rough =
+        test::hemispherical_reflectance(coated(one_wavelength, white, n, 1e-3), theta, 1e-8);
     EXPECT_TRUE(is_close(rough.value, 1.0, fitting)) << theta;
   }
 }

@@ -48,10 +48,9 @@ TEST(CoherentRoughness, KeepsInTheMirrorDirectionWhatDaviesSays) {
   };
   constexpr double printed = 0.5e-6 * (1 + 1e-6);
   constexpr std::array<double, 3> angles_deg{20.0, 60.0, 85.0};
-  for (const Row& row :
-       {Row{10, {.955740, .987265, .999611}}, Row{20, {.834370, .950025, .998444}},
-        Row{50, {.322473, .725847, .990312}}, Row{100, {.010814, .277575, .961806}},
-        Row{200, {0, .005936, .855755}}}) {
+  for (const Row& row : {Row{10, {.955740, .987265, .999611}}, Row{20, {.834370, .950025, .998444}},
+                         Row{50, {.322473, .725847, .990312}},
+                         Row{100, {.010814, .277575, .961806}}, Row{200, {0, .005936, .855755}}}) {
     const Surface surface =
         coherent_roughness(one_wavelength, nanometres(row.sigma_nm), micrometres(20), glass);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -64,8 +63,7 @@ TEST(CoherentRoughness, KeepsInTheMirrorDirectionWhatDaviesSays) {
 }
 
 TEST(CoherentRoughness, OfNoHeightIsSmooth) {
-  const Surface surface =
-      coherent_roughness(one_wavelength, nanometres(0), micrometres(20), glass);
+  const Surface surface = coherent_roughness(one_wavelength, nanometres(0), micrometres(20), glass);
   EXPECT_TRUE(surface.lobes.empty());
   EXPECT_EQ(surface.specular_reflectance(0.5)(0), fresnel_reflectance(0.5, 1.567));
 }
@@ -103,7 +101,7 @@ TEST(CoherentRoughness, ScattersWhatIsNotCoherentWhereTheLobeIsNarrow) {
 
 TEST(CoherentRoughness, ScattersBySlopesWhereItIsRough) {
   // g is above 100: m is 2 sigma / T to exp(-100).
-  constexpr double of_the_finite_tilt = 1e-4;
+  constexpr double of_the_finite_tilt = 1e-3;  // and of the weakening that changes with it
   for (const double theta : {0.0, 20.0, 60.0}) {
     const Surface surface =
         coherent_roughness(one_wavelength, nanometres(1000), micrometres(20), glass);
@@ -128,9 +126,8 @@ TEST(CoherentRoughness, DiffractsByTheCorrelationLengthWhereItIsSmooth) {
 }
 
 TEST(CoherentRoughness, KeepsMoreOfRedThanOfBlue) {
-  const Surface surface =
-      coherent_roughness(test::two_wavelengths, nanometres(50), micrometres(20),
-                         constant_index(1.567, test::two_wavelengths));
+  const Surface surface = coherent_roughness(test::two_wavelengths, nanometres(50), micrometres(20),
+                                             constant_index(1.567, test::two_wavelengths));
   const Eigen::ArrayXd coherent = surface.specular_reflectance(cosine(20));
   EXPECT_GT(coherent(1), 1.5 * coherent(0));
 }

@@ -34,8 +34,7 @@ const std::vector<double> widths = {0.0005, 0.002, 0.01, 0.03, 0.1, 0.2, 0.35, 0
 double largest_reflectance(const Surface& surface, const std::string& name) {
   double largest = 0.0;
   for (const double theta_i : incidences_deg) {
-    const Reflectance reflectance =
-        test::hemispherical_reflectance(surface, theta_i, tolerance);
+    const Reflectance reflectance = test::hemispherical_reflectance(surface, theta_i, tolerance);
     EXPECT_LE(reflectance.value - reflectance.error, 1.0 + rounding)
         << name << " at " << theta_i << " deg: reflects " << reflectance.value << " +- "
         << reflectance.error << ", more than 1";
@@ -50,9 +49,9 @@ TEST(Energy, IsNotMadeByCookTorrance) {
   slopes.insert(slopes.end(), {2.0, 5.0});
   for (const double m : slopes) {
     const auto n_hat = constant_index(ideal_metal);
-    EXPECT_GT(largest_reflectance(cook_torrance(one_wavelength, m, n_hat),
-                                  "m = " + std::to_string(m)),
-              m < 0.2 ? 0.99 : 0.2);
+    EXPECT_GT(
+        largest_reflectance(cook_torrance(one_wavelength, m, n_hat), "m = " + std::to_string(m)),
+        m < 0.2 ? 0.99 : 0.2);
   }
 }
 
@@ -60,7 +59,8 @@ TEST(Energy, IsNotMadeByGgx) {
   for (const Masking masking : {Masking::height_correlated, Masking::separable}) {
     for (const double alpha : widths) {
       const Surface surface = ggx(one_wavelength, alpha, constant_index(ideal_metal), {}, masking);
-      const std::string name = masking == Masking::separable ? "separable, " : "height_correlated, ";
+      const std::string name =
+          masking == Masking::separable ? "separable, " : "height_correlated, ";
       EXPECT_GT(largest_reflectance(surface, name + "alpha = " + std::to_string(alpha)),
                 alpha < 0.2 ? 0.98 : 0.5);
     }
@@ -85,8 +85,8 @@ TEST(Energy, IsNotMadeByCoherentRoughness) {
       const Surface surface =
           coherent_roughness(one_wavelength, nanometres(sigma_nm), micrometres(length_um),
                              constant_index(ideal_metal));
-      EXPECT_GT(largest_reflectance(surface, "sigma = " + std::to_string(sigma_nm) + " nm, T = " +
-                                                 std::to_string(length_um) + " um"),
+      EXPECT_GT(largest_reflectance(surface, "sigma = " + std::to_string(sigma_nm) +
+                                                 " nm, T = " + std::to_string(length_um) + " um"),
                 0.2);
     }
   }
@@ -96,9 +96,9 @@ TEST(Energy, IsNotMadeByACoatedWhiteBase) {
   for (const double n : {1.01, 1.33, 1.5, 2.0, 3.0}) {
     for (const double m : {0.0, 0.001, 0.02, 0.1, 0.3, 0.6, 1.0}) {
       const Surface surface = coated(one_wavelength, whole_weight, ArrayXd::Constant(1, n), m);
-      EXPECT_GT(largest_reflectance(surface, "n = " + std::to_string(n) + ", m = " +
-                                                 std::to_string(m)),
-                0.9);
+      EXPECT_GT(
+          largest_reflectance(surface, "n = " + std::to_string(n) + ", m = " + std::to_string(m)),
+          0.9);
     }
   }
 }
@@ -155,14 +155,13 @@ TEST(CookTorranceAsPrinted, IsFourTimesTheEnergyConservingForm) {
   constexpr double relative = 1e-15;
   const auto n_hat = constant_index(1.567);
   const Surface conserving = cook_torrance(one_wavelength, 0.1, n_hat);
-  const Surface printed =
-      cook_torrance(one_wavelength, 0.1, n_hat, {}, Normalization::as_printed);
+  const Surface printed = cook_torrance(one_wavelength, 0.1, n_hat, {}, Normalization::as_printed);
   std::mt19937 random(20110905);
   for (int k = 0; k < 200; ++k) {
     const Vector3 i = test::random_direction(random);
     const Vector3 r = test::random_direction(random);
-    EXPECT_TRUE(test::is_close_relative(printed.brdf(i, r)(0), 4.0 * conserving.brdf(i, r)(0),
-                                        relative));
+    EXPECT_TRUE(
+        test::is_close_relative(printed.brdf(i, r)(0), 4.0 * conserving.brdf(i, r)(0), relative));
   }
 }
 
@@ -170,8 +169,8 @@ TEST(CookTorranceAsPrinted, ReflectsFourTimesFresnelInTheSmoothLimitAndSoBreaksE
   for (const double theta_i : {0.0, 20.0, 60.0}) {
     const double rho = fresnel_reflectance(std::cos(degrees(theta_i).radians()), 1.567);
     for (const double m : {1e-2, 1e-3}) {
-      const Surface glass = cook_torrance(one_wavelength, m, constant_index(1.567), {},
-                                          Normalization::as_printed);
+      const Surface glass =
+          cook_torrance(one_wavelength, m, constant_index(1.567), {}, Normalization::as_printed);
       const Reflectance reflectance = test::hemispherical_reflectance(glass, theta_i, 1e-9);
       EXPECT_TRUE(is_close(reflectance.value, 4.0 * rho, 20.0 * m * m)) << theta_i;
     }

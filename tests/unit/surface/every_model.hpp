@@ -63,8 +63,7 @@ struct Reflectance {
 inline Reflectance hemispherical_reflectance(const Surface& surface, double theta_i_deg,
                                              double tolerance) {
   const Vector3 omega_i = source_frame(degrees(theta_i_deg)).axis;
-  const Flux flux =
-      ApertureIntegrator().hemispherical(surface, omega_i, whole_weight, tolerance);
+  const Flux flux = ApertureIntegrator().hemispherical(surface, omega_i, whole_weight, tolerance);
   return {flux.spectral(0), flux.error};
 }
 

@@ -33,12 +33,12 @@ const Vector3 omega_i = Vector3(-0.5, 0.2, 0.7).normalized();
 const Vector3 omega_r = Vector3(0.4, -0.1, 0.8).normalized();
 
 TEST(Lambertian, IsItsReflectanceOverPi) {
-  EXPECT_TRUE(is_close(lambertian(one_wavelength, one(0.4)).brdf(omega_i, omega_r)(0), 0.4 / pi,
-                       rounding));
+  EXPECT_TRUE(
+      is_close(lambertian(one_wavelength, one(0.4)).brdf(omega_i, omega_r)(0), 0.4 / pi, rounding));
 }
 
 TEST(Smooth, HasTheGlossOfTheReferenceTableOfDielectrics) {
-  // Five and three decimals printed of what the table was computed from.
+  // GU has three decimals, n no rounding.
   constexpr double printed = 0.0005 * (1 + 1e-6);
   const auto rows = test::csv_rows(GONIO_SOURCE_DIR "/fixtures/reference/fresnel_gloss_vs_n.csv");
   for (const auto& row : rows) {
@@ -106,8 +106,7 @@ TEST(Models, RefuseAWidthOutsideItsRange) {
   EXPECT_EQ(domain_error([&] { return cook_torrance(grid, std::nan(""), glass); }),
             "rms_slope must be > 0, is nan");
   EXPECT_EQ(domain_error([&] { return ggx(grid, 0.0, glass); }), "alpha must be in (0, 1], is 0");
-  EXPECT_EQ(domain_error([&] { return ggx(grid, 1.5, glass); }),
-            "alpha must be in (0, 1], is 1.5");
+  EXPECT_EQ(domain_error([&] { return ggx(grid, 1.5, glass); }), "alpha must be in (0, 1], is 1.5");
   EXPECT_EQ(domain_error([&] { return ward(grid, 0.0, 0.1, {}); }), "alpha_x must be > 0, is 0");
   EXPECT_EQ(domain_error([&] { return ward(grid, 0.1, -2.0, {}); }), "alpha_y must be > 0, is -2");
   EXPECT_EQ(domain_error([&] { return coated(grid, one(0.5), one(1.5), -0.1); }),
@@ -152,7 +151,9 @@ TEST(Models, RefuseAmplitudesThatSumToMoreThanOne) {
 
 TEST(Mixture, RefusesWeightsThatAreNoShares) {
   const Surface white = lambertian(one_wavelength, one(1.0));
-  EXPECT_EQ(domain_error([&] { return mixture({white, white}, {0.75, 0.5}); }),
+  EXPECT_EQ(domain_error([&] {
+              return mixture({white, white}, {0.75, 0.5});
+            }),
             "the sum of weights must be <= 1, is 1.25");
   EXPECT_EQ(domain_error([&] { return mixture({white}, {-0.5}); }),
             "a weight must be >= 0, is -0.5");

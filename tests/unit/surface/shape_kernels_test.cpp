@@ -18,7 +18,7 @@ using Eigen::ArrayXd;
 using Exact = long double;
 
 constexpr unsigned seed = 20130807;
-constexpr int rounds = 40;      // of each batch size
+constexpr int rounds = 40;         // of each batch size
 constexpr int most_in_batch = 17;  // past two vectors of eight lanes
 
 constexpr Exact pi = std::numbers::pi_v<Exact>;
@@ -78,7 +78,8 @@ Vector3 random_direction(std::mt19937& random) {
 
 using Kernel = std::function<void(double, const Vector3&, const DirectionBatch&, ArrayXd&)>;
 using Formula = std::function<Exact(double, const Symbols&)>;
-/// How many roundings of an argument the result has: minus the exponent where the formula is an exp.
+/// How many roundings of an argument the result has: minus the exponent where the formula is an
+/// exp.
 using Amplification = std::function<Exact(double, const Symbols&)>;
 
 /// Compares batches of every size, at random directions and parameters.
@@ -124,60 +125,61 @@ void expect_same(const Kernel& kernel, const Formula& formula, double least, dou
 Exact none(double, const Symbols&) { return 0; }
 
 TEST(ShapeKernels, BeckmannWithVGroovesEqualsThePlainFormula) {
-  expect_same(
-      [](double m, const Vector3& i, const DirectionBatch& r, ArrayXd& g) {
-        kernel::beckmann_v_groove(m, i, r, g);
-      },
-      [](double m, const Symbols& s) {
-        return s.beckmann(m) * s.v_groove() / (4 * s.cos_i * s.cos_r);
-      },
-      0.02, 2.0, [](double m, const Symbols& s) { return s.tan2_a / (Exact(m) * Exact(m)); });
+  expect_same([](double m, const Vector3& i, const DirectionBatch& r,
+                 ArrayXd& g) { kernel::beckmann_v_groove(m, i, r, g); },
+              [](double m, const Symbols& s) {
+                return s.beckmann(m) * s.v_groove() / (4 * s.cos_i * s.cos_r);
+              },
+              0.02, 2.0,
+              [](double m, const Symbols& s) { return s.tan2_a / (Exact(m) * Exact(m)); });
 }
 
 TEST(ShapeKernels, DiffractingBeckmannEqualsThePlainFormula) {
-  // The parameter is the phase at normal incidence; the slope is fixed. The kernel's 1 - exp(-x)
-  // cancels for small phases, its 1 + i.r for nearly opposite directions.
+  // The parameter is the phase at normal incidence; the slope is fixed. The kernel's 1 + i.r
+  // cancels for nearly opposite directions.
   constexpr double slope = 0.15;
-  const auto m_of = [](double k_sigma, const Symbols& s) {
-    const Exact phase = Exact(k_sigma) * s.cos_d;
-    return Exact(slope) / std::sqrt(-std::expm1(-phase * phase));
+  const auto m2_at = [](double k_sigma, Exact c) {
+    return Exact(slope) * Exact(slope) / -std::expm1(-Exact(k_sigma) * k_sigma * c * c);
   };
-  expect_same(
-      [](double k_sigma, const Vector3& i, const DirectionBatch& r, ArrayXd& g) {
-        kernel::beckmann_diffracting(slope, k_sigma, i, r, g);
-      },
-      [&](double k_sigma, const Symbols& s) {
-        return s.beckmann(m_of(k_sigma, s)) * s.v_groove() / (4 * s.cos_i * s.cos_r);
-      },
-      0.5, 10.0, [&](double k_sigma, const Symbols& s) {
-        const Exact m = m_of(k_sigma, s);
-        const Exact cancelled = m * m / (Exact(slope) * Exact(slope)) + 1 / (2 * s.cos_d * s.cos_d);
-        return (1 + s.tan2_a / (m * m)) * cancelled;
-      });
+  const auto weakened = [&](double k_sigma, Exact c) {
+    return c * c / (c * c + m2_at(k_sigma, c) * (1 - c * c));
+  };
+  expect_same([](double k_sigma, const Vector3& i, const DirectionBatch& r,
+                 ArrayXd& g) { kernel::beckmann_diffracting(slope, k_sigma, i, r, g); },
+              [&](double k_sigma, const Symbols& s) {
+                return weakened(k_sigma, s.cos_i) * weakened(k_sigma, s.cos_r) *
+                       s.beckmann(std::sqrt(m2_at(k_sigma, s.cos_d))) * s.v_groove() /
+                       (4 * s.cos_i * s.cos_r);
+              },
+              0.01, 10.0,
+              [&](double k_sigma, const Symbols& s) {
+                const Exact m2 = m2_at(k_sigma, s.cos_d);
+                const Exact cancelled =
+                    m2 / (Exact(slope) * Exact(slope)) + 1 / (2 * s.cos_d * s.cos_d);
+                return (1 + s.tan2_a / m2) * cancelled;
+              });
 }
 
 TEST(ShapeKernels, HeightCorrelatedGgxEqualsThePlainFormula) {
-  expect_same(
-      [](double alpha, const Vector3& i, const DirectionBatch& r, ArrayXd& g) {
-        kernel::ggx_height_correlated(alpha, i, r, g);
-      },
-      [](double alpha, const Symbols& s) {
-        const Exact masked = 1 + smith_lambda(alpha, s.cos_i) + smith_lambda(alpha, s.cos_r);
-        return s.trowbridge_reitz(alpha) / (masked * 4 * s.cos_i * s.cos_r);
-      },
-      0.05, 1.0, none);
+  expect_same([](double alpha, const Vector3& i, const DirectionBatch& r,
+                 ArrayXd& g) { kernel::ggx_height_correlated(alpha, i, r, g); },
+              [](double alpha, const Symbols& s) {
+                const Exact masked =
+                    1 + smith_lambda(alpha, s.cos_i) + smith_lambda(alpha, s.cos_r);
+                return s.trowbridge_reitz(alpha) / (masked * 4 * s.cos_i * s.cos_r);
+              },
+              0.05, 1.0, none);
 }
 
 TEST(ShapeKernels, SeparableGgxEqualsThePlainFormula) {
-  expect_same(
-      [](double alpha, const Vector3& i, const DirectionBatch& r, ArrayXd& g) {
-        kernel::ggx_separable(alpha, i, r, g);
-      },
-      [](double alpha, const Symbols& s) {
-        const Exact masked = (1 + smith_lambda(alpha, s.cos_i)) * (1 + smith_lambda(alpha, s.cos_r));
-        return s.trowbridge_reitz(alpha) / (masked * 4 * s.cos_i * s.cos_r);
-      },
-      0.05, 1.0, none);
+  expect_same([](double alpha, const Vector3& i, const DirectionBatch& r,
+                 ArrayXd& g) { kernel::ggx_separable(alpha, i, r, g); },
+              [](double alpha, const Symbols& s) {
+                const Exact masked =
+                    (1 + smith_lambda(alpha, s.cos_i)) * (1 + smith_lambda(alpha, s.cos_r));
+                return s.trowbridge_reitz(alpha) / (masked * 4 * s.cos_i * s.cos_r);
+              },
+              0.05, 1.0, none);
 }
 
 TEST(ShapeKernels, WardEqualsThePlainFormula) {
@@ -188,28 +190,24 @@ TEST(ShapeKernels, WardEqualsThePlainFormula) {
     const Exact ay = Exact(ratio * alpha_x);
     return (s.hx * s.hx / (ax * ax) + s.hy * s.hy / (ay * ay)) / (s.cos_a * s.cos_a);
   };
-  expect_same(
-      [](double alpha_x, const Vector3& i, const DirectionBatch& r, ArrayXd& g) {
-        kernel::ward_bounded(alpha_x, ratio * alpha_x, i, r, g);
-      },
-      [&](double alpha_x, const Symbols& s) {
-        const Exact area = pi * Exact(alpha_x) * Exact(ratio * alpha_x);
-        const Exact cos4 = s.cos_a * s.cos_a * s.cos_a * s.cos_a;
-        return std::exp(-exponent(alpha_x, s)) / (area * 4 * s.cos_d * s.cos_d * cos4);
-      },
-      0.05, 2.0, exponent);
+  expect_same([](double alpha_x, const Vector3& i, const DirectionBatch& r,
+                 ArrayXd& g) { kernel::ward_bounded(alpha_x, ratio * alpha_x, i, r, g); },
+              [&](double alpha_x, const Symbols& s) {
+                const Exact area = pi * Exact(alpha_x) * Exact(ratio * alpha_x);
+                const Exact cos4 = s.cos_a * s.cos_a * s.cos_a * s.cos_a;
+                return std::exp(-exponent(alpha_x, s)) / (area * 4 * s.cos_d * s.cos_d * cos4);
+              },
+              0.05, 2.0, exponent);
 }
 
 TEST(ShapeKernels, TransmittedTwiceEqualsThePlainFormula) {
-  expect_same(
-      [](double n, const Vector3& i, const DirectionBatch& r, ArrayXd& g) {
-        kernel::transmitted_twice(n, i, r, g);
-      },
-      [](double n, const Symbols& s) {
-        return (1 - dielectric_reflectance(n, s.cos_i)) * (1 - dielectric_reflectance(n, s.cos_r)) /
-               pi;
-      },
-      1.01, 3.0, none);
+  expect_same([](double n, const Vector3& i, const DirectionBatch& r,
+                 ArrayXd& g) { kernel::transmitted_twice(n, i, r, g); },
+              [](double n, const Symbols& s) {
+                return (1 - dielectric_reflectance(n, s.cos_i)) *
+                       (1 - dielectric_reflectance(n, s.cos_r)) / pi;
+              },
+              1.01, 3.0, none);
 }
 
 TEST(ShapeKernels, AreZeroBelowTheHorizonAtEveryPlaceOfABatch) {

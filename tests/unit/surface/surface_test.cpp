@@ -20,7 +20,7 @@ constexpr unsigned seed = 20110701;
 constexpr int pairs = 2000;  // of directions, per model
 
 TEST(Brdf, IsReciprocalForEveryModel) {
-  constexpr double rounding = 1e-12;      // relative
+  constexpr double rounding = 1e-12;     // relative
   constexpr double least_cosine = 0.01;  // where 1 + i.r keeps 12 digits
   for (const NamedSurface& model : test::every_model()) {
     std::mt19937 random(seed);
@@ -97,14 +97,13 @@ TEST(Surface, SumsItsLobesAndItsInterfaces) {
   Surface both = models[1].surface;
   for (const Surface& other : {models[7].surface, models[8].surface}) {
     both.lobes.insert(both.lobes.end(), other.lobes.begin(), other.lobes.end());
-    both.interfaces.insert(both.interfaces.end(), other.interfaces.begin(),
-                           other.interfaces.end());
+    both.interfaces.insert(both.interfaces.end(), other.interfaces.begin(), other.interfaces.end());
   }
   for (int k = 0; k < 100; ++k) {
     const Vector3 i = random_direction(random);
     const Vector3 r = random_direction(random);
-    const ArrayXd sum = models[1].surface.brdf(i, r) + models[7].surface.brdf(i, r) +
-                        models[8].surface.brdf(i, r);
+    const ArrayXd sum =
+        models[1].surface.brdf(i, r) + models[7].surface.brdf(i, r) + models[8].surface.brdf(i, r);
     EXPECT_LT(((both.brdf(i, r) - sum) / sum).abs().maxCoeff(), rounding);
     const ArrayXd specular = models[7].surface.specular_reflectance(i.z()) +
                              models[8].surface.specular_reflectance(i.z());
