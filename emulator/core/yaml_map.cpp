@@ -263,7 +263,7 @@ std::string YamlNode::text() const {
 }
 
 std::string YamlNode::line() const {
-  const std::string result = text();
+  std::string result = text();
   if (result.find_first_of("\t\r\n") != std::string::npos) {
     fail("text in one line, without tabs");
   }

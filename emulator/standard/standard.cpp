@@ -103,9 +103,9 @@ fs::path borrowed_file(const YamlNode& node, const Library& library) {
   const fs::path sibling =
       (folder / ".." / ".." / node.text() / "standard.yaml").lexically_normal();
   std::error_code error;
-  const fs::path file = fs::is_regular_file(sibling, error)
-                            ? sibling
-                            : library.catalog.find(Catalog::Kind::standard, node);
+  fs::path file = fs::is_regular_file(sibling, error)
+                      ? sibling
+                      : library.catalog.find(Catalog::Kind::standard, node);
   for (const fs::path& borrower : library.being_read) {
     if (fs::equivalent(borrower, file)) {
       node.fail("a standard that does not borrow from this one");

