@@ -27,6 +27,18 @@ void ends_before(void* order) {
 #endif
 }
 
+/// Says at the end of a scope, an exception's way out included, that it ends before `order`.
+struct EndsBefore {
+  void* order;
+  ~EndsBefore() { ends_before(order); }
+};
+
+/// Says at the end of a scope that what follows begins after `order`.
+struct ThenBeginsAfter {
+  void* order;
+  ~ThenBeginsAfter() { begins_after(order); }
+};
+
 }  // namespace
 
 namespace gonio {
@@ -34,13 +46,13 @@ namespace gonio {
 void parallel_for(std::size_t n, const std::function<void(std::size_t)>& body) {
   char begin = 0;
   char end = 0;
+  const ThenBeginsAfter all_bodies{&end};
   ends_before(&begin);
   tbb::parallel_for(std::size_t{0}, n, [&](std::size_t i) {
     begins_after(&begin);
+    const EndsBefore return_of_all{&end};
     body(i);
-    ends_before(&end);
   });
-  begins_after(&end);
 }
 
 }  // namespace gonio
