@@ -83,10 +83,9 @@ Flux ApertureIntegrator::reflected(const Surface& surface, const MeasuringGeomet
 }
 
 double ApertureIntegrator::incident(const Aperture& source) const {
-  const ArrayXd one = ArrayXd::Ones(1);
   constexpr double tolerance = 1e-16;
-  return interface_flux([&](double) -> ArrayXd { return one; }, Region(source),
-                        incidence_range(source), one, tolerance)
+  return interface_flux([](double) -> ArrayXd { return ArrayXd::Ones(1); }, Region(source),
+                        incidence_range(source), ArrayXd::Ones(1), tolerance)
       .spectral(0);
 }
 

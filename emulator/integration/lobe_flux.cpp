@@ -101,6 +101,78 @@ class ReceptorIntegral {
   ArrayXd x_, g_, control_;
 };
 
+/// The receptor's moments over the source: int cos i d omega_i. The value is followed by the error
+/// of the receptor's integrals.
+class SourceIntegral {
+ public:
+  /// @param is_symmetric  both apertures are: light from both sides of the plane of measurement is
+  ///                      reflected alike, and cells at q < 0 are those at q > 0.
+  SourceIntegral(ReceptorIntegral& receptor, const Aperture& source, const Plan& plan,
+                 const VectorXd& functional, bool is_symmetric)
+      : receptor_(receptor),
+        region_(source),
+        rule_(region_, plan.p.gauss_points, plan.q.gauss_points),
+        functional_(functional),
+        is_symmetric_(is_symmetric) {}
+
+  [[nodiscard]] const Region& region() const { return region_; }
+
+  /// @param tolerance  of the receptor's integrals.
+  CellEstimate operator()(const Cell& cell, double tolerance) {
+    const Index terms = functional_.size();
+    CellEstimate result{.value = VectorXd::Zero(terms + 1)};
+    if (is_symmetric_ && cell.q_high <= 0.0) {
+      return result;
+    }
+    nodes_.place(region_, cell, rule_);
+    const Index n = rule_.size();
+    omega_i_.resize(n);
+    ArrayXd& factor = nodes_.area;  // becomes cos i d omega_i, but for the weights of the rule
+    kernel::tangent_directions(region_.frame(), nodes_.u, nodes_.v, omega_i_, factor);
+    factor *= is_symmetric_ && cell.q_low >= 0.0 ? 2.0 : 1.0;
+    const bool is_mirrored = is_symmetric_ && cell.q_low == -cell.q_high;
+    std::vector<Integral> inner(std::size_t(n), Integral{});
+    ArrayXd control = ArrayXd::Zero(n);
+    for (Index j = 0; j < n; ++j) {
+      if (rule_.weight(j) == 0.0) {
+        continue;
+      }
+      const Index opposite = is_mirrored ? rule_.opposite_in_q(j) : j;
+      Integral& at_node = inner[std::size_t(j)];
+      at_node = opposite < j ? inner[std::size_t(opposite)]
+                             : receptor_({omega_i_.x(j), omega_i_.y(j), omega_i_.z(j)}, tolerance);
+      control(j) = factor(j) * functional_.dot(at_node.value);
+      const double weight = rule_.weight(j) * factor(j);
+      result.value.head(terms) += weight * at_node.value;
+      result.value(terms) += weight * at_node.error;
+    }
+    result.set_errors(rule_, control);
+    return result;
+  }
+
+ private:
+  ReceptorIntegral& receptor_;
+  Region region_;
+  SquareRule rule_;
+  const VectorXd& functional_;
+  bool is_symmetric_;
+  CellNodes nodes_;
+  DirectionBatch omega_i_;
+};
+
+/// Breaks over the source where the receptor's edges cut the lobe.
+Breaks breaks_at_edges(const Region& source, const std::vector<Peak>& edges, const Plan& plan) {
+  Breaks breaks;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    if (i < 2) {
+      breaks.add_u(source, edges[i], plan.p, past_the_edge);
+    } else {
+      breaks.add_v(source, edges[i], plan.q, past_the_edge);
+    }
+  }
+  return breaks;
+}
+
 }  // namespace
 
 LobeFlux::LobeFlux(const Lobe& lobe, const MeasuringGeometry& geometry, const ArrayXd& weight,
@@ -118,70 +190,28 @@ Flux LobeFlux::operator()() const {
   return lobe_.shape_parameter.size() == 0 ? with_fixed_shape(0.0) : with_changing_shape();
 }
 
-/// int cos i d omega_i over the source of the receptor's moments.
+/// Moments over both apertures.
 Integral LobeFlux::moments(double parameter, double tolerance) const {
-  const Index terms = functional_.size();
-  const Region source(geometry_.source);
-  constexpr double planned = 0.2;  // of the tolerance: cells count their errors fivefold
+  constexpr double planned = 0.2;        // of the tolerance: cells count their errors fivefold
+  constexpr double for_receptor = 0.25;  // of the tolerance; the rest is for the source
   const double relative = std::clamp(planned * tolerance / incident_, 1e-15, 1e-3);
-  const Vector3& axis = geometry_.source.frame().axis;
+  const double cos_theta_i = geometry_.source.frame().axis.z();
   std::size_t budget = most_cells;
   ReceptorIntegral receptor(lobe_, parameter, geometry_, series_, functional_, relative, budget);
-  const auto edges =
-      receptor_edges(geometry_, LobeWidth(lobe_.shape->slope_width(parameter, axis.z()), axis.z()));
+  const auto edges = receptor_edges(
+      geometry_, LobeWidth(lobe_.shape->slope_width(parameter, cos_theta_i), cos_theta_i));
   const Plan plan(geometry_.source, scale_over_source(geometry_.source, edges), relative);
-  Breaks breaks;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    if (i < 2) {
-      breaks.add_u(source, edges[i], plan.p, past_the_edge);
-    } else {
-      breaks.add_v(source, edges[i], plan.q, past_the_edge);
-    }
-  }
-  const double inner_tolerance = 0.25 * tolerance / incident_;
-  const SquareRule rule(source, plan.p.gauss_points, plan.q.gauss_points);
-  // Light from both sides of the plane of measurement is reflected alike: one side is enough.
   const bool is_symmetric = geometry_.source.is_symmetric() && geometry_.receptor.is_symmetric();
+  SourceIntegral source(receptor, geometry_.source, plan, functional_, is_symmetric);
+  Breaks breaks = breaks_at_edges(source.region(), edges, plan);
   if (is_symmetric) {
     breaks.make_q_symmetric();
   }
-  const auto estimate = [&](const Cell& cell) {
-    if (is_symmetric && cell.q_high <= 0.0) {
-      return CellEstimate{.value = VectorXd::Zero(terms + 1)};
-    }
-    const double sides = is_symmetric && cell.q_low >= 0.0 ? 2.0 : 1.0;
-    const bool both_sides = is_symmetric && cell.q_low == -cell.q_high;
-    CellNodes nodes;
-    nodes.place(source, cell, rule);
-    const Index n = rule.size();
-    DirectionBatch omega_i;
-    omega_i.resize(n);
-    ArrayXd& factor = nodes.area;  // becomes cos i d omega_i, but for the weights of the rule
-    kernel::tangent_directions(source.frame(), nodes.u, nodes.v, omega_i, factor);
-    factor *= sides;
-    ArrayXd control = ArrayXd::Zero(n);
-    std::vector<Integral> inner;
-    inner.resize(std::size_t(n));
-    CellEstimate result{.value = VectorXd::Zero(terms + 1)};  // the last one is the inner error
-    for (Index j = 0; j < n; ++j) {
-      if (rule.weight(j) == 0.0) {
-        continue;
-      }
-      const Index opposite = both_sides ? rule.opposite_in_q(j) : j;
-      Integral& at_node = inner[std::size_t(j)];
-      at_node = opposite < j
-                    ? inner[std::size_t(opposite)]
-                    : receptor({omega_i.x(j), omega_i.y(j), omega_i.z(j)}, inner_tolerance);
-      control(j) = factor(j) * functional_.dot(at_node.value);
-      const double weight = rule.weight(j) * factor(j);
-      result.value.head(terms) += weight * at_node.value;
-      result.value(terms) += weight * at_node.error;
-    }
-    result.set_errors(rule, control);
-    return result;
-  };
-  Integral sum = integrate(source, std::move(breaks.p), std::move(breaks.q), estimate,
-                           0.75 * tolerance, budget);
+  Integral sum = integrate(
+      source.region(), std::move(breaks.p), std::move(breaks.q),
+      [&](const Cell& cell) { return source(cell, for_receptor * tolerance / incident_); },
+      (1.0 - for_receptor) * tolerance, budget);
+  const Index terms = functional_.size();
   sum.error += sum.value(terms);
   sum.value.conservativeResize(terms);
   return sum;

@@ -9,7 +9,7 @@ double lobe_albedo(const Shape& shape, double parameter, double cos_theta_i,
                    const std::function<double(double)>& factor) {
   constexpr int steps = 16;     // on each side of the mirror direction
   constexpr double step = 0.4;  // in rms slopes; exp(-(pi / step)^2) is rounding
-  constexpr Eigen::Index n = (2 * steps + 1) * (steps + 1);
+  constexpr Eigen::Index n = Eigen::Index{2 * steps + 1} * (steps + 1);
   const double scale = step * shape.slope_width(parameter, cos_theta_i).x;
   const Vector3 omega_i(-std::sqrt(1.0 - cos_theta_i * cos_theta_i), 0.0, cos_theta_i);
   DirectionBatch omega_r;
