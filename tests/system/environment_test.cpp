@@ -145,7 +145,8 @@ TEST(DataFolders, HaveTheInstalledShareFolderBeforeTheSourceTree) {
   const Outcome list = installed.run({"list", "samples", "--format", "csv"});
   EXPECT_EQ(list.status, 0) << list.err;
   EXPECT_THAT(list.out, HasSubstr((prefix.path() / "share/gonio").string()));
-  const std::string cell = "," + (test::source_tree / "fixtures").string();
+  std::string cell(1, ',');
+  cell += (test::source_tree / "fixtures").string();
   EXPECT_THAT(list.out, testing::Not(HasSubstr(cell)));
   EXPECT_EQ(sample_measured(installed), "black_glass_n1567");
   installed.set("GONIO_DATA", make_data(installed.folder() / "set", "52").string());
