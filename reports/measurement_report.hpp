@@ -14,7 +14,6 @@ struct MeasurementHeader {
   std::string instrument;  ///< title
   std::string integrator;  ///< aperture or patches
   std::string reference;   ///< what the scale refers to, in words
-  double tolerance;        ///< asked of the integrator
   WavelengthGrid grid;
 };
 

@@ -150,7 +150,6 @@ void run(const Options& options, const CommonOptions& common) {
       .instrument = instrument.title,
       .integrator = options.integrator,
       .reference = describe_reference(options, instrument.standard.scale),
-      .tolerance = options.tolerance,
       .grid = grid};
   if (options.spectrum) {
     write_text_file(*options.spectrum, spectra_csv(header, measurements));

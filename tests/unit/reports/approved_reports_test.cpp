@@ -33,7 +33,6 @@ struct Reported {
             .instrument = "Nominal values of iso_2813/2014",
             .integrator = "aperture",
             .reference = "reference glass n = 1.567 at all wavelengths",
-            .tolerance = tolerance_gu,
             .grid = test::visible};
   }
 };

@@ -38,7 +38,6 @@ MeasurementHeader header_of(const Standard& standard) {
           .instrument = "Some instrument",
           .integrator = "aperture",
           .reference = "reference glass",
-          .tolerance = 1e-4,
           .grid = two_wavelengths};
 }
 
