@@ -31,6 +31,8 @@ const DimensionEntry& entry(Dimension dimension) {
   static const DimensionEntry gloss{"a gloss value", {{"GU", 1.0}}};
   static const DimensionEntry time{"a time",
                                    {{"s", 1.0}, {"ms", 1e-3}, {"min", 60.0}, {"h", 3600.0}}};
+  static const DimensionEntry temperature{"a temperature", {{"degC", 1.0}}};
+  static const DimensionEntry difference{"a temperature difference", {{"K", 1.0}}};
   switch (dimension) {
     case Dimension::number:
       return number;
@@ -42,6 +44,10 @@ const DimensionEntry& entry(Dimension dimension) {
       return gloss;
     case Dimension::time:
       return time;
+    case Dimension::temperature:
+      return temperature;
+    case Dimension::temperature_difference:
+      return difference;
   }
   throw std::invalid_argument("entry: not a dimension");
 }

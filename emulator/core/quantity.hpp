@@ -24,10 +24,12 @@ struct Range {
 };
 
 /// A kind of quantity, with the units that an input file may state it in.
-enum class Dimension { number, angle, length, gloss, time };
+enum class Dimension { number, angle, length, gloss, time, temperature, temperature_difference };
 
-/// The number in `text` in the base unit of its dimension: 1, radian, nanometre, GU, second.
-/// Numbers are read without regard to the locale; "60 deg", "+0.5 nm", "0.1 GU", "10 ms".
+/// The number in `text` in the base unit of its dimension: 1, radian, nanometre, GU, second, degree
+/// Celsius, kelvin.
+/// Numbers are read without regard to the locale; "60 deg", "+0.5 nm", "0.1 GU", "10 ms", "23
+/// degC".
 /// @return  nothing if the text is not a finite number followed by a unit of that dimension.
 [[nodiscard]] std::optional<double> parse_quantity(std::string_view text, Dimension dimension);
 

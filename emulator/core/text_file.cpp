@@ -1,5 +1,6 @@
 #include "emulator/core/text_file.hpp"
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -23,6 +24,22 @@ constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors be
 
 [[noreturn]] void fail(const fs::path& path) {
   throw std::system_error(errno, std::generic_category(), "cannot write " + path.string());
+}
+
+/// A rename is safe from power failure once its folder is on the disk.
+/// A folder that may not be read cannot be opened for that, and some file systems cannot do it: the
+/// rename is then as safe as they make it.
+bool sync_folder_of(const fs::path& path) {
+  const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (descriptor < 0) {
+    return true;
+  }
+  const bool synced = fsync(descriptor) == 0 || errno == EINVAL || errno == ENOTSUP;
+  const int cause = errno;
+  close(descriptor);
+  errno = cause;
+  return synced;
 }
 
 }  // namespace
@@ -77,6 +94,9 @@ void write_text_file(const fs::path& path, std::string_view text) {
     const int cause = errno;
     unlink(temporary.c_str());
     errno = cause;
+    fail(path);
+  }
+  if (!sync_folder_of(path)) {
     fail(path);
   }
 }

@@ -304,6 +304,12 @@ double YamlNode::gloss_gu(const Range& range_gu) const {
 double YamlNode::time_s(const Range& range_s) const {
   return quantity(Dimension::time, range_s, 1.0);
 }
+double YamlNode::temperature_c(const Range& range_c) const {
+  return quantity(Dimension::temperature, range_c, 1.0);
+}
+double YamlNode::temperature_difference_k(const Range& range_k) const {
+  return quantity(Dimension::temperature_difference, range_k, 1.0);
+}
 
 int YamlNode::integer(int low, int high) const {
   const auto value = is_scalar() ? parse_quantity(node_->text, Dimension::number) : std::nullopt;

@@ -46,6 +46,8 @@ class YamlNode {
   [[nodiscard]] Length length(const Range& range_nm = Range::any()) const;
   [[nodiscard]] double gloss_gu(const Range& range_gu = Range::any()) const;
   [[nodiscard]] double time_s(const Range& range_s = Range::any()) const;
+  [[nodiscard]] double temperature_c(const Range& range_c = Range::any()) const;
+  [[nodiscard]] double temperature_difference_k(const Range& range_k = Range::any()) const;
   /// The value, which must be one of `choices`.
   [[nodiscard]] std::string choice(const std::vector<std::string>& choices) const;
   /// A file path, resolved relative to the folder of this YAML file.

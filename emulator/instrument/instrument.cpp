@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+
 #include "emulator/core/yaml_map.hpp"
 
 namespace gonio {
@@ -45,6 +50,87 @@ GeometryAsBuilt read_geometry(const YamlNode& node) {
   });
 }
 
+std::vector<std::string> ids_of(const Standard& standard) {
+  std::vector<std::string> ids;
+  for (const GeometryLimits& geometry : standard.geometries) {
+    ids.push_back(geometry.id);
+  }
+  return ids;
+}
+
+/// The geometries that an instrument has, in the order of its standard.
+std::vector<std::string> read_geometries(const YamlNode& node, const Standard& standard) {
+  const std::vector<std::string> known = ids_of(standard);
+  std::set<std::string> listed;
+  for (const YamlNode& item : node.list()) {
+    const std::string id = item.choice(known);
+    if (!listed.insert(id).second) {
+      item.fail("each geometry once");
+    }
+  }
+  for (const std::string& id : listed) {
+    const auto& needed = standard.geometry(id).relative_to;
+    if (needed && !listed.contains(*needed)) {
+      node.fail(fmt::format("'{}' too, where the reference of '{}' is read", *needed, id), "none");
+    }
+  }
+  std::vector<std::string> ids;
+  std::copy_if(known.begin(), known.end(), std::back_inserter(ids),
+               [&](const std::string& id) { return listed.contains(id); });
+  return ids;
+}
+
+std::map<std::string, GeometryAsBuilt> read_as_built(const YamlNode& node,
+                                                     const Instrument& instrument) {
+  std::map<std::string, GeometryAsBuilt> as_built;
+  const std::vector<std::string> known = ids_of(instrument.standard);
+  node.for_each_entry([&](const std::string& id, const YamlNode& geometry) {
+    if (std::find(known.begin(), known.end(), id) == known.end()) {
+      geometry.fail("a geometry of " + instrument.standard.id, id);
+    }
+    if (!instrument.has(id)) {
+      geometry.fail("one of the geometries of this instrument", id);
+    }
+    as_built.emplace(id, read_geometry(geometry));
+  });
+  return as_built;
+}
+
+std::vector<std::filesystem::path> read_samples(const YamlNode& node, const Catalog& catalog) {
+  std::vector<std::filesystem::path> files;
+  for (const YamlNode& item : node.list()) {
+    files.push_back(catalog.find(Catalog::Kind::sample, item));
+  }
+  return files;
+}
+
+void read_optics(YamlMap& map, Instrument& instrument) {
+  if (const auto geometries = map.optional("geometries")) {
+    instrument.geometries = read_geometries(*geometries, instrument.standard);
+  }
+  if (const auto as_built = map.optional("as_built")) {
+    instrument.as_built = read_as_built(*as_built, instrument);
+  }
+  if (const auto source = map.optional("source_spectrum")) {
+    instrument.source = SpectralTable::load(*source);
+  }
+  if (const auto responsivity = map.optional("responsivity")) {
+    instrument.responsivity = SpectralTable::load(*responsivity);
+  }
+}
+
+void read_device(YamlMap& map, Instrument& instrument) {
+  if (const auto identity = map.optional("identity")) {
+    instrument.identity = read_identity(*identity);
+  }
+  if (const auto behaviour = map.optional("behaviour")) {
+    instrument.behaviour = read_behaviour(*behaviour, instrument.geometries);
+  }
+  if (const auto repeatability = map.optional("repeatability")) {
+    instrument.behaviour.repeatability_gu = repeatability->gloss_gu(Range::not_negative());
+  }
+}
+
 /// A rectangle in place of the standard's circle needs both its sides.
 void expect_both_sides(const OpeningAsBuilt& opening) {
   if (opening.in_plane && opening.perpendicular) {
@@ -77,6 +163,9 @@ Aperture build(const Frame& frame, const ApertureLimits& limits, const OpeningAs
 }  // namespace
 
 MeasuringGeometry Instrument::geometry(const std::string& geometry_id) const {
+  if (!has(geometry_id)) {
+    throw std::out_of_range(fmt::format("Instrument::geometry: {} has no '{}'", id, geometry_id));
+  }
   const GeometryLimits& limits = standard.geometry(geometry_id);
   const auto found = as_built.find(geometry_id);
   const GeometryAsBuilt built = found == as_built.end() ? GeometryAsBuilt{} : found->second;
@@ -86,11 +175,16 @@ MeasuringGeometry Instrument::geometry(const std::string& geometry_id) const {
                             limits.receptor, built.receptor)};
 }
 
+bool Instrument::has(const std::string& geometry_id) const {
+  return std::find(geometries.begin(), geometries.end(), geometry_id) != geometries.end();
+}
+
 Instrument nominal_instrument(const Standard& standard) {
   return {.file = {},
           .id = "nominal",
           .title = "Nominal values of " + standard.id,
           .standard = standard,
+          .geometries = ids_of(standard),
           .source = standard.source,
           .responsivity = standard.responsivity};
 }
@@ -99,36 +193,20 @@ Instrument load_instrument(const std::filesystem::path& path, const Catalog& cat
   return YamlNode::load(path).read_map([&](YamlMap& map) {
     map.expect_schema("gonio/instrument/1");
     const YamlNode built_to = map.required("built_to");
-    const Standard standard =
-        load_standard(catalog.find(Catalog::Kind::standard, built_to), catalog);
-    Instrument instrument = nominal_instrument(standard);
+    Instrument instrument =
+        nominal_instrument(load_standard(catalog.find(Catalog::Kind::standard, built_to), catalog));
     instrument.file = path;
     instrument.id = map.required("id").id();
     instrument.title = map.required("title").line();
     if (const auto notes = map.optional("notes")) {
       instrument.notes = notes->text();
     }
-    if (const auto source = map.optional("source_spectrum")) {
-      instrument.source = SpectralTable::load(*source);
+    read_optics(map, instrument);
+    read_device(map, instrument);
+    if (const auto samples = map.optional("samples")) {
+      instrument.samples = read_samples(*samples, catalog);
     }
-    if (const auto responsivity = map.optional("responsivity")) {
-      instrument.responsivity = SpectralTable::load(*responsivity);
-    }
-    if (const auto repeatability = map.optional("repeatability")) {
-      instrument.repeatability_gu = repeatability->gloss_gu(Range::not_negative());
-    }
-    if (const auto as_built = map.optional("as_built")) {
-      as_built->for_each_entry([&](const std::string& id, const YamlNode& node) {
-        bool known = false;
-        for (const GeometryLimits& geometry : standard.geometries) {
-          known = known || geometry.id == id;
-        }
-        if (!known) {
-          node.fail("a geometry of " + standard.id, id);
-        }
-        instrument.as_built.emplace(id, read_geometry(node));
-      });
-    }
+    instrument.wire = map.optional("wire");
     return instrument;
   });
 }

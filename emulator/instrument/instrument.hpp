@@ -4,10 +4,13 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "emulator/core/angle.hpp"
 #include "emulator/core/catalog.hpp"
 #include "emulator/core/table.hpp"
+#include "emulator/core/yaml_map.hpp"
+#include "emulator/instrument/behaviour.hpp"
 #include "emulator/integration/aperture.hpp"
 #include "emulator/standard/standard.hpp"
 
@@ -34,21 +37,29 @@ struct Instrument {
   std::string title;
   std::string notes = {};
   Standard standard;
-  std::map<std::string, GeometryAsBuilt> as_built = {};  ///< by id of the standard's geometry
+  std::vector<std::string> geometries = {};  ///< ids of those it has, in the standard's order
+  std::map<std::string, GeometryAsBuilt> as_built = {};  ///< by id
   SpectralTable source;                                  ///< spectral power distribution
   SpectralTable responsivity;
-  std::optional<double> repeatability_gu = {};  ///< standard deviation of readings
+  Identity identity = {};
+  Behaviour behaviour = {};
+  std::vector<std::filesystem::path> samples = {};  ///< files of what lies beside it
+  /// The map `wire`, unread: what it means is the protocol's business, and its errors are found
+  /// there.
+  std::optional<YamlNode> wire = {};
 
+  [[nodiscard]] bool has(const std::string& geometry_id) const;
   /// The apertures of one geometry, in the frame of a sample that lies flat.
   /// @throws InputError         if the standard leaves a size unknown that is not stated as built.
-  /// @throws std::out_of_range  if the standard has no such geometry.
+  /// @throws std::out_of_range  if the instrument has no such geometry.
   [[nodiscard]] MeasuringGeometry geometry(const std::string& geometry_id) const;
 };
 
 /// The instrument that has the nominal values of a standard.
 [[nodiscard]] Instrument nominal_instrument(const Standard& standard);
 
-/// Reads a file of schema gonio/instrument/1. @param catalog  where `built_to` is looked up.
+/// Reads a file of schema gonio/instrument/1.
+/// @param catalog  where `built_to` and `samples` are looked up.
 /// @throws InputError  for anything that is not as the schema says.
 [[nodiscard]] Instrument load_instrument(const std::filesystem::path& path, const Catalog& catalog);
 

@@ -18,23 +18,20 @@ bool contains(const std::vector<std::string>& ids, const std::string& id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
 }
 
-std::vector<std::string> geometries_asked_for(const Standard& standard,
+std::vector<std::string> geometries_asked_for(const Instrument& instrument,
                                               const MeasureOptions& options) {
-  std::vector<std::string> known;
-  for (const GeometryLimits& geometry : standard.geometries) {
-    known.push_back(geometry.id);
-  }
+  const std::string& name = instrument.file.empty() ? instrument.standard.id : instrument.id;
   std::vector<std::string> asked;
   for (const std::string& id : options.geometries) {
-    if (!contains(known, id)) {
-      throw std::invalid_argument(fmt::format("{} has the geometries {}, not '{}'", standard.id,
-                                              fmt::join(known, ", "), id));
+    if (!instrument.has(id)) {
+      throw std::invalid_argument(fmt::format("{} has the geometries {}, not '{}'", name,
+                                              fmt::join(instrument.geometries, ", "), id));
     }
     if (!contains(asked, id)) {
       asked.push_back(id);
     }
   }
-  return asked.empty() ? known : asked;
+  return asked.empty() ? instrument.geometries : asked;
 }
 
 std::optional<ReflectedColour> reflected_colour(const GlossReading& reading,
@@ -76,7 +73,7 @@ Measurement measure(const Sample& sample, const Glossmeter& glossmeter, const Ob
   const Standard& standard = glossmeter.instrument().standard;
   Measurement measurement{.sample = sample.id, .sample_title = sample.title};
   std::map<std::string, double> gloss;
-  for (const std::string& id : geometries_asked_for(standard, options)) {
+  for (const std::string& id : geometries_asked_for(glossmeter.instrument(), options)) {
     const GeometryLimits& limits = standard.geometry(id);
     const GlossReading reading =
         glossmeter.read(sample.surface, id, options.tolerance, options.tilt);

@@ -14,7 +14,7 @@ namespace gonio {
 
 /// How a measurement is done.
 struct MeasureOptions {
-  std::vector<std::string> geometries = {};  ///< ids, each measured once; empty for all
+  std::vector<std::string> geometries = {};  ///< ids, each measured once; empty for all it has
   double tolerance = 1e-4;                   ///< of the integrator, in the unit of the scale
   Angle tilt = {};                           ///< of the sample in the plane of measurement
 };
@@ -54,7 +54,7 @@ struct Measurement {
 
 /// Measures a sample in the geometries asked for.
 /// @throws InputError             for an aperture of unknown size.
-/// @throws std::invalid_argument  for a geometry that the standard does not have.
+/// @throws std::invalid_argument  for a geometry that the instrument does not have.
 [[nodiscard]] Measurement measure(const Sample& sample, const Glossmeter& glossmeter,
                                   const Observer& observer, const MeasureOptions& options);
 

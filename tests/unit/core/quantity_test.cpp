@@ -33,6 +33,8 @@ TEST(ParseQuantity, ReadsEachUnitInTheBaseUnitOfItsDimension) {
   expect_value("10 ms", Dimension::time, 0.01);
   expect_value("5 min", Dimension::time, 300.0);
   expect_value("2 h", Dimension::time, 7200.0);
+  expect_value("-3.5 degC", Dimension::temperature, -3.5);
+  expect_value("6 K", Dimension::temperature_difference, 6.0);
 }
 
 TEST(ParseQuantity, ReadsSignsExponentsAndAnyNumberOfBlanks) {
@@ -69,6 +71,8 @@ TEST(ParseQuantity, RefusesAMissingAForeignAndAMisspeltUnit) {
   EXPECT_FALSE(parse_quantity("60 Deg", Dimension::angle));
   EXPECT_FALSE(parse_quantity("0.1 gu", Dimension::gloss));
   EXPECT_FALSE(parse_quantity("1 m", Dimension::length));
+  EXPECT_FALSE(parse_quantity("23 K", Dimension::temperature));
+  EXPECT_FALSE(parse_quantity("6 degC", Dimension::temperature_difference));
 }
 
 /// Writes numbers as much of Europe does: 1.000,5.

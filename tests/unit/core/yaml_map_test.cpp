@@ -212,6 +212,8 @@ TEST(YamlNodeQuantity, ReadsEachDimension) {
   EXPECT_EQ(value("2 um").length(), micrometres(2));
   EXPECT_EQ(value("0.1 GU").gloss_gu(), 0.1);
   EXPECT_EQ(value("10 ms").time_s(), 0.01);
+  EXPECT_EQ(value("23.5 degC").temperature_c(), 23.5);
+  EXPECT_EQ(value("6 K").temperature_difference_k(), 6.0);
 }
 
 TEST(YamlNodeQuantity, RefusesAWrongUnitAndAMissingOne) {

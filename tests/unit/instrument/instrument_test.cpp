@@ -62,7 +62,7 @@ double perpendicular_deg(const Aperture& aperture) {
 TEST(ShippedInstruments, LoadUnderTheIdOfTheirFile) {
   const auto ids = ids_of_shipped(Catalog::Kind::instrument);
   EXPECT_THAT(ids, testing::IsSupersetOf({"collimated_iso_2813", "nominal_iso_2813", "paper_setup",
-                                          "triangle_gloss"}));
+                                          "pocket_gloss_60", "triangle_gloss"}));
   for (const std::string& id : ids) {
     const Instrument instrument =
         load_instrument(shipped().find(Catalog::Kind::instrument, id), shipped());
@@ -168,18 +168,103 @@ TEST(InstrumentGeometry, OfAnUnknownIdIsOutOfRange) {
 TEST(InstrumentLoad, ReadsSpectraAndRepeatability) {
   const Instrument triangle =
       load_instrument(shipped().find(Catalog::Kind::instrument, "triangle_gloss"), shipped());
-  EXPECT_EQ(triangle.repeatability_gu, 0.05);
+  EXPECT_EQ(triangle.behaviour.repeatability_gu, 0.05);
   EXPECT_NE(triangle.source.at(nanometres(450)), triangle.standard.source.at(nanometres(450)));
   EXPECT_EQ(triangle.responsivity.at(nanometres(555)), 1.0);
-  EXPECT_FALSE(load_text(instrument_text("")).repeatability_gu);
+  EXPECT_EQ(load_text(instrument_text("")).behaviour.repeatability_gu, 0.0);
+}
+
+TEST(InstrumentLoad, ReadsWhatLiesBesideIt) {
+  const TemporaryFolder folder;
+  (void)folder.file("own.yaml", "schema: gonio/sample/1\n");
+  const Instrument instrument = load_instrument(
+      folder.file("mine.yaml", instrument_text("samples: [black_matt, own.yaml]\n")), shipped());
+  ASSERT_EQ(instrument.samples.size(), 2U);
+  EXPECT_EQ(instrument.samples[0], shipped().find(Catalog::Kind::sample, "black_matt"));
+  EXPECT_EQ(instrument.samples[1], folder.path() / "own.yaml");
+  EXPECT_TRUE(load_text(instrument_text("")).samples.empty());
+}
+
+TEST(InstrumentLoad, HandsTheWireOnUnread) {
+  const Instrument instrument = load_text(instrument_text("wire: {anything: [at, all]}\n"));
+  ASSERT_TRUE(instrument.wire);
+  EXPECT_EQ(instrument.wire->mark().line, 5);
+  EXPECT_TRUE(instrument.wire->is_map());
+  EXPECT_FALSE(load_text(instrument_text("")).wire);
+}
+
+TEST(InstrumentLoad, ReadsIdentityAndBehaviour) {
+  const Instrument triangle =
+      load_instrument(shipped().find(Catalog::Kind::instrument, "triangle_gloss"), shipped());
+  EXPECT_EQ(triangle.identity.model, "Triangle Gloss");
+  EXPECT_EQ(triangle.behaviour.full_scale_gu, (std::vector<double>{2000.0, 1000.0, 160.0}));
+  EXPECT_EQ(triangle.samples.size(), 6U);
+}
+
+TEST(InstrumentGeometries, AreThoseOfTheStandardInItsOrder) {
+  using testing::ElementsAre;
+  EXPECT_THAT(load_text(instrument_text("")).geometries, ElementsAre("20", "60", "85"));
+  EXPECT_THAT(load_text(instrument_text("geometries: [\"60\", \"20\"]\n")).geometries,
+              ElementsAre("20", "60"));
+}
+
+TEST(InstrumentGeometries, ThatItDoesNotHaveAreOutOfRange) {
+  const Instrument instrument = load_text(instrument_text("geometries: [\"60\"]\n"));
+  EXPECT_TRUE(instrument.has("60"));
+  EXPECT_FALSE(instrument.has("20"));
+  EXPECT_NO_THROW((void)instrument.geometry("60"));
+  EXPECT_EQ(message_of([&] { (void)instrument.geometry("20"); }),
+            "Instrument::geometry: mine has no '20'");
+  EXPECT_THROW((void)instrument.geometry("20"), std::out_of_range);
 }
 
 // Errors.
 
+TEST(InstrumentErrors, OfGeometries) {
+  EXPECT_EQ(error_of(instrument_text("geometries: [\"45\"]\n")),
+            ":5:14: geometries[0]: expected one of 20, 60, 85, found '45'");
+  EXPECT_EQ(error_of(instrument_text("geometries: [\"60\", \"60\"]\n")),
+            ":5:20: geometries[1]: expected each geometry once, found '60'");
+  EXPECT_EQ(error_of(instrument_text("geometries: []\n")),
+            ":5:13: geometries: expected a list of at least one item, found 'a list'");
+  EXPECT_EQ(
+      error_of(instrument_text("geometries: [\"60\"]\nas_built:\n  \"20\": {theta_i: 20 deg}\n")),
+      ":7:9: as_built.20: expected one of the geometries of this instrument, found '20'");
+  EXPECT_EQ(
+      error_of(instrument_text("geometries: [\"60\"]\nbehaviour: {full_scale: {\"20\": 9 GU}}\n")),
+      ":6:25: behaviour.full_scale.60: expected the key '60', found 'only 20'");
+}
+
+TEST(InstrumentErrors, OfGeometriesWithoutTheOneThatTheyAreRelativeTo) {
+  const Standard standard = shipped_standard("astm_e430/11");
+  std::string relative;
+  std::string to;
+  for (const GeometryLimits& geometry : standard.geometries) {
+    if (geometry.relative_to) {
+      relative = geometry.id;
+      to = *geometry.relative_to;
+      break;
+    }
+  }
+  ASSERT_FALSE(relative.empty());
+  EXPECT_EQ(error_of(instrument_text("geometries: [\"" + relative + "\"]\n", "astm_e430/11")),
+            ":5:13: geometries: expected '" + to + "' too, where the reference of '" + relative +
+                "' is read, found 'none'");
+}
+
+TEST(InstrumentErrors, OfASampleThatIsNotThereNameItsPlaceInTheFile) {
+  EXPECT_THAT(error_of(instrument_text("samples: [black_matt, gold_leaf]\n")),
+              testing::AllOf(StartsWith(":5:23: samples[1]: expected a sample file"),
+                             testing::EndsWith("found 'gold_leaf'")));
+  EXPECT_EQ(error_of(instrument_text("samples: []\n")),
+            ":5:10: samples: expected a list of at least one item, found 'a list'");
+}
+
 TEST(InstrumentErrors, OfKeys) {
   EXPECT_EQ(error_of(instrument_text("colour: red\n")),
-            ":5:1: colour: expected one of the keys as_built, built_to, id, notes, repeatability, "
-            "responsivity, schema, source_spectrum, title, found 'colour'");
+            ":5:1: colour: expected one of the keys as_built, behaviour, built_to, geometries, id, "
+            "identity, notes, repeatability, responsivity, samples, schema, source_spectrum, "
+            "title, wire, found 'colour'");
   EXPECT_EQ(error_of(instrument_text("as_built:\n  \"60\": {colour: 3 deg}\n")),
             ":6:10: as_built.60.colour: expected one of the keys receptor, source, theta_i, "
             "theta_r, found 'colour'");

@@ -21,6 +21,7 @@ using test::message_of;
 using test::meter_by_standard;
 using test::meter_of;
 using test::observer;
+using test::shipped_meter;
 using test::shipped_sample;
 using test::TemporaryFolder;
 
@@ -58,6 +59,14 @@ TEST(MeasureGeometries, ThatTheStandardDoesNotHaveAreRefusedByName) {
               (void)measured("black_satin", "iso_2813/2014", {.geometries = {"60", "45"}});
             }),
             "iso_2813/2014 has the geometries 20, 60, 85, not '45'");
+}
+
+TEST(MeasureGeometries, AreThoseThatTheInstrumentHas) {
+  const Glossmeter pocket = shipped_meter("pocket_gloss_60");
+  const Sample paint = shipped_sample("black_satin");
+  EXPECT_EQ(ids_of(measure(paint, pocket, observer(), {})), (std::vector<std::string>{"60"}));
+  EXPECT_EQ(message_of([&] { (void)measure(paint, pocket, observer(), {.geometries = {"20"}}); }),
+            "pocket_gloss_60 has the geometries 60, not '20'");
 }
 
 TEST(MeasureGeometries, MayBeAskedForWhereAnotherOneIsUnknown) {

@@ -1,0 +1,51 @@
+#include "emulator/instrument/assembly.hpp"
+
+#include <utility>
+
+#include "emulator/surface/models.hpp"
+
+namespace gonio {
+
+namespace {
+
+/// The reference glass reads the value of the scale by definition; what an integrator makes of the
+/// quotient of two equal fluxes may differ in the last digit.
+double tile_optics_gu(const Glossmeter& glossmeter, const std::string& geometry_id,
+                      double tile_index, double tolerance) {
+  const Scale& scale = glossmeter.instrument().standard.scale;
+  if (scale.refractive_index && tile_index == scale.refractive_index->nominal) {
+    return scale.value.nominal;
+  }
+  const WavelengthGrid& grid = glossmeter.grid();
+  const Surface tile = smooth(grid, Eigen::ArrayXcd::Constant(grid.size(), tile_index));
+  return glossmeter.read(tile, geometry_id, tolerance).gloss;
+}
+
+}  // namespace
+
+Device assemble_device(const Glossmeter& glossmeter, Behaviour behaviour,
+                       const std::vector<Sample>& samples, double tolerance) {
+  const Instrument& instrument = glossmeter.instrument();
+  std::vector<Channel> channels;
+  for (const std::string& id : instrument.geometries) {
+    const Angle theta_i = instrument.standard.geometry(id).theta_i.nominal;
+    channels.push_back(
+        {.geometry_id = id,
+         .theta_i = theta_i,
+         .tile_assigned_gu =
+             assigned_gloss(behaviour.tile_index, theta_i, instrument.standard.scale),
+         .tile_optics_gu = tile_optics_gu(glossmeter, id, behaviour.tile_index, tolerance)});
+  }
+  std::vector<DeviceSample> laid_out;
+  for (const Sample& sample : samples) {
+    DeviceSample laid{.id = sample.id, .title = sample.title, .gloss_gu = {}};
+    for (const Channel& channel : channels) {
+      laid.gloss_gu.push_back(
+          glossmeter.read(sample.surface, channel.geometry_id, tolerance).gloss);
+    }
+    laid_out.push_back(std::move(laid));
+  }
+  return {instrument.identity, std::move(behaviour), std::move(channels), std::move(laid_out)};
+}
+
+}  // namespace gonio
