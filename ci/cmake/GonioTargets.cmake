@@ -4,6 +4,7 @@ include(CMakePackageConfigHelpers)
 
 option(GONIO_BUILD_TESTS "Build tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
 option(GONIO_WERROR "Treat warnings as errors" OFF)
+option(GONIO_FUZZ "Build the fuzzers of tests/fuzz; needs clang" OFF)
 set(GONIO_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined or thread")
 
 set(CMAKE_CXX_STANDARD 20)
@@ -42,6 +43,18 @@ function(gonio_module name)
   install(TARGETS gonio_${name} EXPORT gonio)
   file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
   install(FILES ${headers} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/gonio/${folder})
+endfunction()
+
+# Standalone Asio is headers without a package of their own: the target asio.
+function(gonio_find_asio)
+  find_path(ASIO_INCLUDE_DIR asio.hpp REQUIRED)
+  find_package(Threads REQUIRED)
+  add_library(asio INTERFACE IMPORTED GLOBAL)
+  target_include_directories(asio SYSTEM INTERFACE ${ASIO_INCLUDE_DIR})
+  # Else its memory functions would depend on what a source has included before.
+  target_compile_definitions(asio INTERFACE ASIO_STANDALONE ASIO_NO_DEPRECATED
+                                            ASIO_DISABLE_STD_ALIGNED_ALLOC)
+  target_link_libraries(asio INTERFACE Threads::Threads)
 endfunction()
 
 # Data, and the package that find_package(gonio) reads.
