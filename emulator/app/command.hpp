@@ -25,6 +25,12 @@ struct CommonOptions {
 void add_measure_command(CLI::App& program, const CommonOptions& common);
 void add_list_command(CLI::App& program, const CommonOptions& common);
 void add_glass_command(CLI::App& program, const CommonOptions& common);
+void add_serve_command(CLI::App& program, const CommonOptions& common);
+void add_registers_command(CLI::App& program);
+void add_read_command(CLI::App& program);
+void add_trigger_command(CLI::App& program);
+void add_watch_command(CLI::App& program);
+void add_write_command(CLI::App& program);
 
 /// Refuses what is not a number in that range, NaN too. @param range  not all numbers.
 [[nodiscard]] CLI::Validator number_in(const Range& range);

@@ -9,6 +9,7 @@
 
 #include "emulator/app/command.hpp"
 #include "emulator/core/input_error.hpp"
+#include "emulator/protocol/client.hpp"
 
 namespace gonio::app {
 
@@ -62,13 +63,20 @@ int run(int argc, char** argv) {
   program.fallthrough();
   program.footer(
       "Example: gonio measure --sample copper_polished --standard iso_2813/2014\n"
-      "Exit status: 0 done, 1 does not conform, 2 bad input, 3 the environment failed");
+      "Exit status: 0 done, 1 does not conform or the instrument says no, 2 bad input, 3 the "
+      "environment failed");
   CommonOptions common;
   program.add_option("--data", common.data_dir,
                      "Folder with standards and fixtures, searched first");
   add_measure_command(program, common);
   add_list_command(program, common);
   add_glass_command(program, common);
+  add_serve_command(program, common);
+  add_registers_command(program);
+  add_read_command(program);
+  add_trigger_command(program);
+  add_watch_command(program);
+  add_write_command(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -95,6 +103,9 @@ int main(int argc, char** argv) {
   } catch (const std::invalid_argument& error) {
     fmt::print(stderr, "gonio: {}\n", error.what());
     return bad_input;
+  } catch (const gonio::DeviceRefusal& error) {
+    fmt::print(stderr, "gonio: {}\n", error.what());
+    return does_not_conform;
   } catch (const std::exception& error) {
     fmt::print(stderr, "gonio: {}\n", error.what());
     return environment_failed;

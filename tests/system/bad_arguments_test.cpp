@@ -165,11 +165,16 @@ void expect_refused(const std::vector<std::string>& arguments, const std::string
 
 TEST(BadCommand, NoneAtAll) { expect_refused({}, "subcommand"); }
 TEST(BadCommand, Unknown) {
-  const std::string message = "expected one of the commands measure, list, glass, found '";
+  const std::string message =
+      "expected one of the commands measure, list, glass, serve, registers, read, trigger, watch, "
+      "write, found '";
   expect_refused({"frobnicate"}, message + "frobnicate'");
   expect_refused({"frobnicate", "--help"}, message + "frobnicate'");
 }
 TEST(BadCommand, MeasureWithoutASample) { expect_refused({"measure"}, "--sample"); }
+TEST(BadCommand, RegistersInAnUnknownFormat) {
+  expect_refused({"registers", "--format", "json"}, "--format");
+}
 TEST(BadCommand, ListOfNothing) { expect_refused({"list"}, "what"); }
 TEST(BadCommand, ListOfTheUnknown) { expect_refused({"list", "paints"}, "paints"); }
 

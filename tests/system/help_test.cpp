@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/system/program.hpp"
+#include "tests/system/serve_fixture.hpp"
 
 namespace gonio {
 namespace {
@@ -42,10 +43,18 @@ std::vector<std::vector<std::string>> examples_in(const std::string& help) {
   return examples;
 }
 
-const std::vector<std::vector<std::string>> commands{{}, {"measure"}, {"list"}, {"glass"}};
+const std::vector<std::vector<std::string>> commands{
+    {}, {"measure"}, {"list"}, {"glass"}, {"registers"}};
+
+/// Commands that need a device, or go on until they are told to end.
+const std::vector<std::vector<std::string>> device_commands{
+    {"read"}, {"trigger"}, {"watch"}, {"write"}};
 
 TEST(Help, ShowsAnExampleForEachCommand) {
-  for (const auto& command : commands) {
+  auto all = commands;
+  all.insert(all.end(), device_commands.begin(), device_commands.end());
+  all.push_back({"serve"});
+  for (const auto& command : all) {
     EXPECT_FALSE(examples_in(help_of(command)).empty()) << testing::PrintToString(command);
   }
 }
@@ -62,9 +71,25 @@ TEST(Help, ShowsExamplesThatRun) {
   }
 }
 
+TEST(Help, ShowsExamplesThatRunWithADevice) {
+  const test::ServedInstrument device({"--ideal", "--place", "tile", "--rtu", "pty"});
+  for (const auto& command : device_commands) {
+    for (auto example : examples_in(help_of(command))) {
+      example[1] = example[1].starts_with("modbus-rtu:") ? device.rtu_url() : device.url();
+      if (command.front() == "watch") {
+        example.insert(example.end(), {"--count", "1"});
+      }
+      const Outcome outcome = Program().run(example);
+      EXPECT_EQ(outcome.status, 0) << testing::PrintToString(example) << outcome.err;
+    }
+  }
+}
+
 TEST(Help, OfTheProgramNamesItsCommands) {
   const std::string help = help_of({});
-  for (const char* command : {"  measure ", "  list ", "  glass "}) {
+  for (const char* command :
+       {"  measure ", "  list ", "  glass ", "  serve ", "  registers ", "  read ", "  trigger ",
+        "  watch ", "  write "}) {
     EXPECT_THAT(help, testing::HasSubstr(command));
   }
   EXPECT_THAT(help, testing::HasSubstr("Exit status: 0 done"));

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -196,6 +197,19 @@ TEST(GlassProgram, AssignsTheValuesOfD523) {
   EXPECT_TRUE(is_close(gloss.at("85"), 99.43, 0.0051));
   EXPECT_THAT(output_of({"glass"}), HasSubstr(" 1.567      100.00      100.00      100.00\n"));
   EXPECT_EQ(lines_of(output_of({"glass", "--format", "csv"})).front(), "n,20,60,85");
+}
+
+TEST(RegistersProgram, WritesTheMapInEachFormat) {
+  const std::map<std::string, std::string> files{{"page", "registers.md"},
+                                                 {"csv", "registers.csv"},
+                                                 {"openmodbus", "openmodbus.yaml"},
+                                                 {"telegraf", "telegraf.toml"},
+                                                 {"home_assistant", "home_assistant.yaml"}};
+  for (const auto& [format, file] : files) {
+    EXPECT_EQ(output_of({"registers", "--format", format}),
+              test::contents(test::source_tree / "reports/registers" / file));
+  }
+  EXPECT_EQ(output_of({"registers"}), output_of({"registers", "--format", "page"}));
 }
 
 }  // namespace

@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <memory>
+
+#include "emulator/app/command.hpp"
+#include "emulator/app/device_report.hpp"
+#include "emulator/app/device_session.hpp"
+#include "emulator/protocol/point_text.hpp"
+
+namespace gonio::app {
+
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+struct Options {
+  DeviceOptions device;
+  std::string command;
+  std::string wait = "60 s";
+};
+
+/// The device's words for what it can be told to do.
+std::vector<std::string> command_names() {
+  std::vector<std::string> names;
+  for (const Symbol& symbol : known_point("command").symbols) {
+    if (symbol.name != "none") {
+      names.push_back(symbol.name);
+    }
+  }
+  return names;
+}
+
+DeviceView read_outcome(ModbusClient& client) {
+  return {client,
+          {&known_point("command_sequence"), &known_point("last_command"),
+           &known_point("command_state"), &known_point("command_error")}};
+}
+
+/// Waits until a command is over. @param before  the sequence number before it was given.
+/// @throws DeviceRefusal  if it fails, or takes longer.
+void await(ModbusClient& client, const std::string& command, double before,
+           steady_clock::time_point deadline) {
+  const std::string what = fmt::format("{}: {}", client.url().text(), command);
+  for (;;) {
+    const DeviceView view = retry_while_busy(busy_patience, [&] { return read_outcome(client); });
+    const bool is_ours = view.number("command_sequence") != before;
+    const std::string state = view.text("command_state");
+    if (is_ours && view.text("last_command") != command) {
+      throw DeviceRefusal(
+          fmt::format("{}: expected to hear what became of it, found that someone "
+                      "else gave the command {} meanwhile",
+                      what, view.text("last_command")));
+    }
+    if (is_ours && state == "failed") {
+      throw DeviceRefusal(fmt::format("{}: {}: {}", what, view.text("command_error"),
+                                      view.meaning("command_error")));
+    }
+    if (is_ours && state == "done") {
+      return;
+    }
+    if (steady_clock::now() >= deadline) {
+      throw DeviceRefusal(fmt::format("{}: still running; see `gonio watch`", what));
+    }
+    std::this_thread::sleep_for(poll_interval);
+  }
+}
+
+void run(const Options& options) {
+  const auto wait = parse_duration("--wait", options.wait, Range::closed(0.0, 86'400.0));
+  const std::vector<std::uint16_t> code = parse_value(known_point("command"), options.command);
+  ModbusClient client = options.device.connect();
+  const auto deadline = steady_clock::now() + wait;
+  const double before =
+      retry_while_busy(wait, [&] { return read_outcome(client); }).number("command_sequence");
+  retry_while_busy(wait, [&] { client.write_registers(known_point("command").address, code); });
+  if (wait == milliseconds(0)) {
+    print(fmt::format("{}: accepted\n", options.command));
+    return;
+  }
+  await(client, options.command, before, deadline);
+  if (options.command != "measure") {
+    print(fmt::format("{}: done\n", options.command));
+    return;
+  }
+  const DeviceView view = retry_while_busy(busy_patience, [&] {
+    return DeviceView(client, points_of_blocks({"status", "readings", "statistics", "channels"}));
+  });
+  print(readings_text(view, isatty(STDOUT_FILENO) != 0));
+}
+
+}  // namespace
+
+void add_trigger_command(CLI::App& program) {
+  CLI::App* command =
+      program.add_subcommand("trigger", "Have a glossmeter on Modbus measure, calibrate and so on");
+  const auto options = std::make_shared<Options>();
+  add_device_options(*command, options->device);
+  command->add_option("command", options->command, "What it is to do")
+      ->required()
+      ->check(CLI::IsMember(command_names()));
+  command->add_option("--wait", options->wait, "Longest wait for it to be done; 0 s: do not wait")
+      ->capture_default_str();
+  command->footer(
+      "Example: gonio trigger modbus://127.0.0.1:1502 calibrate\n"
+      "         gonio trigger modbus://127.0.0.1:1502 measure --wait 10");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace gonio::app
