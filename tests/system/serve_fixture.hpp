@@ -4,13 +4,12 @@
 #include <unistd.h>
 
 #include <array>
-#include <csignal>
-#include <nlohmann/json.hpp>
-#include <stdexcept>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "tests/system/program.hpp"
+#include "tests/system/serve_process.hpp"
 
 namespace gonio::test {
 
@@ -56,40 +55,26 @@ inline std::string read_until(int file, const std::string& end) {
 class ServedInstrument {
  public:
   /// @param more  arguments, e.g. {"--ideal"}.
-  explicit ServedInstrument(const std::vector<std::string>& more) {
-    std::vector<std::string> arguments{
-        "serve",    "triangle_gloss", "--tcp", "127.0.0.1:0", "--format",
-        "json",     "--log-level",    "off",   "--sample",    "black_glass_n1567",
-        "--sample", "red_satin"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    process_ = program_.start(arguments, announcement_.in());
-    announcement_.close_in();
-    const std::string line = read_until(announcement_.out(), "\n");
-    if (line.empty()) {
-      Program::wait(process_);
-      throw std::runtime_error("gonio serve did not begin");
-    }
-    listening_ = nlohmann::json::parse(line);
-  }
-  ~ServedInstrument() {
-    kill(process_, SIGTERM);
-    EXPECT_EQ(Program::wait(process_), 0);
-  }
+  explicit ServedInstrument(const std::vector<std::string>& more)
+      : process_(program_, arguments(more)) {}
+  ~ServedInstrument() { EXPECT_EQ(process_.end(), 0); }
   ServedInstrument(const ServedInstrument&) = delete;
   ServedInstrument& operator=(const ServedInstrument&) = delete;
 
-  [[nodiscard]] std::string url() const {
-    return "modbus://" + listening_.at("tcp").get<std::string>();
-  }
-  [[nodiscard]] std::string rtu_url() const {
-    return "modbus-rtu:" + listening_.at("rtu").get<std::string>();
-  }
+  [[nodiscard]] std::string url() const { return "modbus://" + process_.tcp(); }
+  [[nodiscard]] std::string rtu_url() const { return "modbus-rtu:" + process_.rtu(); }
 
  private:
+  static std::vector<std::string> arguments(const std::vector<std::string>& more) {
+    std::vector<std::string> result{
+        triangle, "--tcp",    "127.0.0.1:0",       "--format", "json",     "--log-level",
+        "off",    "--sample", "black_glass_n1567", "--sample", "red_satin"};
+    result.insert(result.end(), more.begin(), more.end());
+    return result;
+  }
+
   Program program_;
-  Pipe announcement_;
-  pid_t process_ = 0;
-  nlohmann::json listening_;
+  ServeProcess process_;
 };
 
 }  // namespace gonio::test
