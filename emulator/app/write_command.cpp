@@ -49,6 +49,7 @@ Assignment parse_assignment(const std::string& text) {
 /// In the order of addresses; what adjoins goes together.
 std::vector<Request> plan(ModbusClient& client, const std::vector<Assignment>& assignments) {
   std::vector<std::pair<const Point*, const Assignment*>> points;
+  points.reserve(assignments.size());
   for (const Assignment& assignment : assignments) {
     points.emplace_back(&assignment.name.resolve(client), &assignment);
   }

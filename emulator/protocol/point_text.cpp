@@ -24,6 +24,7 @@ constexpr const char* no_bits = "none";
 
 std::string names_of(const std::vector<Symbol>& symbols, const char* separator) {
   std::vector<std::string> names;
+  names.reserve(symbols.size());
   for (const Symbol& symbol : symbols) {
     names.push_back(symbol.name);
   }
