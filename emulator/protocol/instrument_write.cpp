@@ -54,9 +54,6 @@ Exception InstrumentWrite::try_on(Device& copy, const FaultPlan& faults) const {
     if (!copy.command(command)) {
       return Exception::server_device_busy;
     }
-    if (copy.status().command.error == DeviceError::storage_failed) {
-      return Exception::server_device_failure;
-    }
   }
   return Exception::none;
 }

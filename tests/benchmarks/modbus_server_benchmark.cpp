@@ -50,6 +50,14 @@ class ServerProcess {
   ServerProcess& operator=(const ServerProcess&) = delete;
 
   [[nodiscard]] std::uint16_t port() const { return port_; }
+  /// Time of a processor that it has used [s].
+  [[nodiscard]] double processor_s() const {
+    clockid_t clock = 0;
+    timespec now{};
+    clock_getcpuclockid(process_, &clock);
+    clock_gettime(clock, &now);
+    return double(now.tv_sec) + 1e-9 * double(now.tv_nsec);
+  }
   /// VmRSS [MiB].
   [[nodiscard]] double resident_mib() const {
     std::ifstream status("/proc/" + std::to_string(process_) + "/status");
@@ -135,9 +143,13 @@ void requests_per_second(benchmark::State& state, double target) {
   LoadClient subject_client(load);
   const int rounds = load.depth > 1 ? 50 : 10'000;
   std::vector<double> round_s;
+  const double reference_began = reference.processor_s();
+  const double subject_began = subject.processor_s();
   compare(
       state, speedup_at_least(target), [&] { reference_client.run(rounds); },
       [&] { round_s = subject_client.run(rounds); }, Clock::elapsed);
+  state.counters["processor_ratio"] =
+      (reference.processor_s() - reference_began) / (subject.processor_s() - subject_began);
   state.counters["p99_ms"] = 1e3 * quantile(round_s, 0.99);
   state.counters["requests_per_s"] =
       double(rounds * load.depth) / state.counters["subject_s"].value;
