@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <csignal>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -126,6 +127,7 @@ void run(Options options, const CommonOptions& common) {
                                                            : Parity::none;
     rtu = options.rtu_options;
   }
+  std::signal(SIGPIPE, SIG_IGN);  // who reads the log may leave
   const auto log = make_log(options.log);
   const auto station = make_station(options.station, common.catalog());
   Server server(station->dispatcher(), *log);

@@ -18,7 +18,7 @@ constexpr std::array<std::string_view, 9> names = {
     "stray", "corrupt_crc", "close"};
 
 constexpr Range delay_s = {.low = 0.001, .high = 600.0};
-constexpr int highest_function = 127, highest_unit = 255, highest_server = 247;
+constexpr int highest_function = 127, highest_unit = 247;
 constexpr int highest_count = 1'000'000'000;
 
 /// Where a request holds addresses: offset in the PDU of an address, and of a quantity of them.
@@ -107,7 +107,7 @@ void read_parameters(YamlMap& map, FaultRule& rule) {
 /// Which requests the rule is for, and how many.
 void read_selection(YamlMap& map, FaultRule& rule) {
   if (const auto unit = map.optional("unit")) {
-    rule.unit = static_cast<std::uint8_t>(unit->integer(0, highest_unit));
+    rule.unit = static_cast<std::uint8_t>(unit->integer(1, highest_unit));
   }
   if (const auto function = map.optional("function")) {
     rule.function = static_cast<std::uint8_t>(function->integer(1, highest_function));
@@ -181,7 +181,7 @@ WireOptions read_wire(const YamlNode& node) {
   return node.read_map([](YamlMap& map) {
     WireOptions options;
     if (const auto unit = map.optional("unit")) {
-      options.unit = unit->integer(1, highest_server);
+      options.unit = unit->integer(1, highest_unit);
     }
     if (const auto faults = map.optional("faults")) {
       options.faults = read_fault_rules(*faults);

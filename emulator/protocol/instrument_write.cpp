@@ -237,7 +237,7 @@ struct InstrumentSetters {
       }};
     };
     add("wire_fault", &Form::fault, 0.0, highest);
-    add("wire_fault_unit", &Form::unit, 0.0, 255.0);
+    add("wire_fault_unit", &Form::unit, 1.0, 247.0);
     add("wire_fault_function", &Form::function, 1.0, 127.0);
     add("wire_fault_first", &Form::first, 0.0, highest);
     add("wire_fault_last", &Form::last, 0.0, highest);

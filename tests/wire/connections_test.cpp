@@ -2,6 +2,7 @@
 // open.
 #include <gtest/gtest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <vector>
@@ -178,6 +179,19 @@ TEST(Connections, DoNotKeepTheServerFromEnding) {
       EXPECT_TRUE(peer.is_closed());
     }
     EXPECT_NE(server.log().find("served "), std::string::npos);
+  }
+}
+
+TEST(Connections, AreServedAlthoughNobodyReadsTheLogAnyMore) {
+  const TemporaryFolder folder;
+  const std::string pipe = folder.path() / "log";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  ServerProcess server({"--log-file", pipe, "--log-level", "trace"});
+  close(reader);
+  TcpSocket peer(server.port());
+  for (int i = 0; i < 100; ++i) {  // more than the C library keeps
+    ASSERT_TRUE(is_answered(peer));
   }
 }
 

@@ -18,12 +18,16 @@ std::filesystem::path process_folder(pid_t id) {
 }  // namespace
 
 ServerProcess::ServerProcess(const std::vector<std::string>& arguments, const Setup& setup) {
-  std::vector<std::string> all = {"serve",   setup.instrument, "--sample", "black_glass_n1567",
-                                  "--tcp",   setup.tcp,        "--format", "json",
-                                  "--ideal", "--log-file",     "log"};
-  if (std::find(arguments.begin(), arguments.end(), "--stall-timeout") == arguments.end()) {
-    all.insert(all.end(), {"--stall-timeout", "300 ms"});
-  }
+  std::vector<std::string> all = {"serve",  setup.instrument, "--sample", "black_glass_n1567",
+                                  "--tcp",  setup.tcp,        "--format", "json",
+                                  "--ideal"};
+  const auto add_default = [&](const char* option, const char* value) {
+    if (std::find(arguments.begin(), arguments.end(), option) == arguments.end()) {
+      all.insert(all.end(), {option, value});
+    }
+  };
+  add_default("--log-file", "log");
+  add_default("--stall-timeout", "300 ms");
   all.insert(all.end(), arguments.begin(), arguments.end());
   if (!setup.preload.empty()) {
     program_.set("LD_PRELOAD", setup.preload);
@@ -58,6 +62,9 @@ void ServerProcess::read_announcement(int file) {
 }
 
 ServerProcess::~ServerProcess() {
+  if (is_alive()) {
+    EXPECT_EQ(end(), 0) << log();
+  }
   if (is_alive()) {
     kill(id_, SIGKILL);
     Program::wait(id_);

@@ -22,7 +22,8 @@ constexpr double largest_mib = 50.0;
 /// A server that is asked to make a pseudo terminal, too.
 inline const std::vector<std::string> with_pty = {"--rtu", "pty", "--baud", "115200"};
 
-/// A running `gonio serve`; it ends with the scope at the latest.
+/// A running `gonio serve`. It ends with the scope at the latest, by a signal, and has to do so
+/// cleanly: with sanitizers that is without a leak.
 class ServerProcess {
  public:
   /// How it is started, beside what `arguments` say.

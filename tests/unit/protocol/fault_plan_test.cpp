@@ -107,8 +107,8 @@ struct BadValue {
 
 TEST(ReadFaultRule, RefusesValuesOutsideTheirRange) {
   const std::string address = "an address or a range of them in [0, 65535], e.g. 0-9";
-  const std::vector<BadValue> bad = {{"unit", "-1", "a whole number in [0, 255]"},
-                                     {"unit", "256", "a whole number in [0, 255]"},
+  const std::vector<BadValue> bad = {{"unit", "0", "a whole number in [1, 247]"},
+                                     {"unit", "248", "a whole number in [1, 247]"},
                                      {"function", "0", "a whole number in [1, 127]"},
                                      {"function", "128", "a whole number in [1, 127]"},
                                      {"function", "3.5", "a whole number in [1, 127]"},

@@ -235,7 +235,7 @@ TEST(InstrumentWrite, AddsAndDropsFaultsOnTheWire) {
 TEST(InstrumentWrite, RefusesFaultsOnTheWireThatMeanNothing) {
   BenchInstrument bench;
   EXPECT_EQ(bench.write("wire_fault", 9), Exception::illegal_data_value);
-  EXPECT_EQ(bench.write("wire_fault_unit", 256), Exception::illegal_data_value);
+  EXPECT_EQ(bench.write("wire_fault_unit", 248), Exception::illegal_data_value);
   EXPECT_EQ(bench.write("wire_fault_function", 0), Exception::illegal_data_value);
   EXPECT_EQ(bench.write("wire_fault_function", 65535), Exception::none);
   EXPECT_EQ(bench.write("wire_fault_probability", 1'000'001), Exception::illegal_data_value);
