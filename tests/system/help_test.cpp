@@ -87,9 +87,8 @@ TEST(Help, ShowsExamplesThatRunWithADevice) {
 
 TEST(Help, OfTheProgramNamesItsCommands) {
   const std::string help = help_of({});
-  for (const char* command :
-       {"  measure ", "  list ", "  glass ", "  serve ", "  registers ", "  read ", "  trigger ",
-        "  watch ", "  write "}) {
+  for (const char* command : {"  measure ", "  list ", "  glass ", "  serve ", "  registers ",
+                              "  read ", "  trigger ", "  watch ", "  write "}) {
     EXPECT_THAT(help, testing::HasSubstr(command));
   }
   EXPECT_THAT(help, testing::HasSubstr("Exit status: 0 done"));
