@@ -104,7 +104,7 @@ void Server::run() {
   while (!io.stopped()) {
     const bool has_served = tcp != nullptr && tcp->poll() > 0;
     const bool is_turn = !has_served || ++rounds % rounds_of_connections == 0;
-    const bool has_more = is_turn && io.poll() > 0;
+    const bool has_more = is_turn && io.poll_one() > 0;
     if (has_served || has_more) {
       last_event = Dispatcher::Clock::now();
     } else if (Dispatcher::Clock::now() - last_event < wakeful) {
