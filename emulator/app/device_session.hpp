@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <string>
-#include <thread>
 
 #include "emulator/core/quantity.hpp"
 #include "emulator/protocol/client.hpp"
@@ -29,9 +28,12 @@ void add_device_options(CLI::App& command, DeviceOptions& options);
                                                        const std::string& text,
                                                        const Range& range_s);
 
-/// A device that answers busy is asked so often, so long.
-inline constexpr std::chrono::milliseconds poll_interval{50};
+/// A device that answers busy is asked for so long.
 inline constexpr std::chrono::seconds busy_patience{5};
+
+/// Lets time pass before a device is asked again. Modbus has no way to be told when something has
+/// happened, and to ask without a pause would keep others from the line.
+void pause_between_questions();
 
 /// Calls `request` until the device is no longer busy. @return  what it returns.
 /// @throws ModbusExceptionError  that of the last try.
@@ -47,7 +49,7 @@ auto retry_while_busy(std::chrono::milliseconds patience, Request&& request) {
         throw;
       }
     }
-    std::this_thread::sleep_for(poll_interval);
+    pause_between_questions();
   }
 }
 

@@ -27,7 +27,7 @@ struct Options {
   std::vector<std::string> geometries;
   std::string integrator = "aperture";
   std::optional<int> patches;
-  double tolerance = 1e-4;
+  double tolerance = MeasureOptions{}.tolerance;
   std::string tilt = "0 deg";
   std::optional<std::string> reference_glass;
   std::string wavelengths = "380:780:5";

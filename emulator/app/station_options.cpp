@@ -10,6 +10,7 @@
 #include "emulator/instrument/assembly.hpp"
 #include "emulator/instrument/settings.hpp"
 #include "emulator/integration/aperture_integrator.hpp"
+#include "emulator/procedure/measure.hpp"
 
 namespace gonio::app {
 
@@ -56,9 +57,9 @@ Device make_device(const StationOptions& options, const std::vector<TimedFault>&
   Behaviour behaviour = options.is_ideal ? instrument.behaviour.ideal() : instrument.behaviour;
   behaviour.seed = options.seed.value_or(behaviour.seed);
   behaviour.faults.insert(behaviour.faults.end(), faults.begin(), faults.end());
-  constexpr double tolerance_gu = 1e-4;  // that of `gonio measure`
-  Device device = assemble_device(glossmeter, std::move(behaviour),
-                                  load_samples(options, instrument, catalog, grid), tolerance_gu);
+  Device device =
+      assemble_device(glossmeter, std::move(behaviour),
+                      load_samples(options, instrument, catalog, grid), MeasureOptions{}.tolerance);
   place(device, options.place);
   return device;
 }

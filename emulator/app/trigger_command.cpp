@@ -63,7 +63,7 @@ void await(ModbusClient& client, const std::string& command, double before,
     if (steady_clock::now() >= deadline) {
       throw DeviceRefusal(fmt::format("{}: still running; see `gonio watch`", what));
     }
-    std::this_thread::sleep_for(poll_interval);
+    pause_between_questions();
   }
 }
 

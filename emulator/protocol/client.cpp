@@ -14,7 +14,8 @@ namespace gonio {
 
 namespace {
 
-constexpr int most_registers = 125, most_bits = 2000, most_written = 123;
+constexpr int most_registers = modbus::max_read_registers, most_bits = modbus::max_read_bits;
+constexpr int most_written = modbus::max_write_registers;
 constexpr int highest_exception = 11;
 
 /// The errors that libmodbus adds to those of the system.

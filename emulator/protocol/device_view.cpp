@@ -23,7 +23,6 @@ using modbus::Table;
 
 constexpr int channels = 3;
 constexpr double angle_tolerance_deg = 0.5;  // people name angles by whole degrees
-constexpr int most_registers = 125, most_bits = 2000;
 
 bool is_bit_table(Table table) { return table == Table::coils || table == Table::discrete_inputs; }
 
@@ -53,7 +52,7 @@ std::set<Place> places_of_the_map() {
 /// Whether a request can go on to a point: near enough, and no hole on the way.
 bool reaches(const Request& request, const Point& next) {
   static const std::set<Place> places = places_of_the_map();
-  const int most = is_bit_table(next.table) ? most_bits : most_registers;
+  const int most = is_bit_table(next.table) ? modbus::max_read_bits : modbus::max_read_registers;
   if (request.table() != next.table || next.last_address() - request.address() >= most) {
     return false;
   }

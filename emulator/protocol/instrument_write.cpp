@@ -1,7 +1,6 @@
 #include "emulator/protocol/instrument_write.hpp"
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <type_traits>
 
@@ -12,10 +11,6 @@ using modbus::Exception;
 namespace {
 
 std::uint32_t bit_of(InstrumentFault fault) { return 1U << static_cast<unsigned>(fault); }
-
-constexpr std::array instrument_faults{InstrumentFault::lamp_failure, InstrumentFault::over_range,
-                                       InstrumentFault::frozen_reading, InstrumentFault::drift_step,
-                                       InstrumentFault::tile_dirty};
 
 bool is_in(double number, double low, double high) { return number >= low && number <= high; }
 
@@ -59,7 +54,8 @@ Exception InstrumentWrite::try_on(Device& copy, const FaultPlan& faults) const {
 }
 
 bool InstrumentWrite::set_faults(Device& copy) const {
-  for (const InstrumentFault fault : instrument_faults) {
+  for (std::size_t i = 0; i < instrument_fault_count; ++i) {
+    const auto fault = static_cast<InstrumentFault>(i);
     const bool is_on = (faults_ & bit_of(fault)) != 0;
     const bool was_on = (copy.status().faults & bit_of(fault)) != 0;
     const double magnitude = fault == InstrumentFault::drift_step   ? state_.drift_step

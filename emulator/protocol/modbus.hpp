@@ -10,6 +10,11 @@ inline constexpr std::size_t max_pdu = 253;
 inline constexpr std::size_t max_tcp_adu = 260;
 inline constexpr std::size_t max_rtu_adu = 256;
 
+/// How many bits or registers one request can read or write.
+inline constexpr std::size_t max_read_bits = 2000, max_write_bits = 1968;
+inline constexpr std::size_t max_read_registers = 125, max_write_registers = 123;
+inline constexpr std::size_t max_write_registers_when_reading = 121;
+
 enum class FunctionCode : std::uint8_t {
   read_coils = 1,
   read_discrete_inputs = 2,

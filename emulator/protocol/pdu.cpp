@@ -12,10 +12,6 @@ namespace gonio::modbus {
 
 namespace {
 
-constexpr std::size_t max_read_bits = 2000, max_write_bits = 1968;
-constexpr std::size_t max_read_registers = 125, max_write_registers = 123;
-constexpr std::size_t max_write_registers_when_reading = 121;
-
 using Request = std::span<const std::uint8_t>;
 
 /// Appends the reply to `reply`, which holds the function code.

@@ -20,7 +20,7 @@ using modbus::Table;
 
 constexpr int highest_address = 65535;
 constexpr int channels = 3;
-constexpr int longest_text = 123;  // registers; what one request can write
+constexpr int longest_text = modbus::max_write_registers;  // what one request can write
 // The last address that a reference number of five digits can tell.
 constexpr int last_of_five_digits = 9998;
 

@@ -14,8 +14,6 @@ namespace {
 
 using modbus::Table;
 
-constexpr int longest_read = 125;  // registers of one request
-
 /// Text in double quotes, as YAML and TOML know them.
 std::string in_quotes(const std::string& text) {
   std::string result = "\"";
@@ -86,10 +84,11 @@ using Request = std::vector<Point>;
 std::vector<Request> requests(const std::vector<Point>& points) {
   std::vector<Request> result;
   for (const Point& point : points) {
-    const bool goes_on = !result.empty() && result.back().back().table == point.table &&
-                         result.back().back().is_word_swapped == point.is_word_swapped &&
-                         result.back().back().last_address() + 1 == point.address &&
-                         point.last_address() - result.back().front().address < longest_read;
+    const bool goes_on =
+        !result.empty() && result.back().back().table == point.table &&
+        result.back().back().is_word_swapped == point.is_word_swapped &&
+        result.back().back().last_address() + 1 == point.address &&
+        point.last_address() - result.back().front().address < int{modbus::max_read_registers};
     if (!goes_on) {
       result.emplace_back();
     }

@@ -9,16 +9,16 @@
 
 #include "tests/wire/victim.hpp"
 
+namespace gonio::test {
+namespace {
+
 /// UBSan needs a descriptor of its own to look at a pointer, and takes the lack of one for an
 /// error.
 #ifdef GONIO_SANITIZED
-#define SKIP_WITH_SANITIZERS() GTEST_SKIP() << "the sanitizer needs descriptors"
+constexpr bool needs_descriptors = true;
 #else
-#define SKIP_WITH_SANITIZERS() static_cast<void>(0)
+constexpr bool needs_descriptors = false;
 #endif
-
-namespace gonio::test {
-namespace {
 
 /// So many connections that ask nothing.
 std::vector<TcpSocket> crowd(const ServerProcess& server, int count) {
@@ -88,7 +88,9 @@ TEST(Connections, FloodDoesNotPushOutAClientAtWork) {
 
 /// Lets a server have only a few more descriptors than it has, and wants more.
 TEST(Connections, BeyondTheDescriptorsOfTheProcessWaitWithoutSpinning) {
-  SKIP_WITH_SANITIZERS();
+  if (needs_descriptors) {
+    GTEST_SKIP() << "the sanitizer needs descriptors";
+  }
   ServerProcess server({"--idle-timeout", "500 ms"});
   TcpSocket worker(server.port());
   ASSERT_TRUE(is_answered(worker));
@@ -114,7 +116,9 @@ TEST(Connections, BeyondTheDescriptorsOfTheProcessWaitWithoutSpinning) {
 }
 
 TEST(Connections, BeyondTheDescriptorsOfTheProcessLeaveClientsAtWorkAlone) {
-  SKIP_WITH_SANITIZERS();
+  if (needs_descriptors) {
+    GTEST_SKIP() << "the sanitizer needs descriptors";
+  }
   ServerProcess server;
   const std::size_t files = server.open_files();
   server.limit_open_files(files + 8);

@@ -121,4 +121,19 @@ inline std::string description(const Device& device) {
   return text;
 }
 
+/// On its tile, and calibrated.
+inline Device calibrated(const Behaviour& behaviour = unhurried()) {
+  Device device = device_of(behaviour);
+  EXPECT_EQ(calibrate(device), DeviceError::none);
+  return device;
+}
+
+/// Mode `statistics` with n readings.
+inline void set_readings(Device& device, int n) {
+  DeviceSettings settings = device.settings();
+  settings.mode = MeasuringMode::statistics;
+  settings.statistics_readings = n;
+  EXPECT_EQ(device.set(settings), std::nullopt);
+}
+
 }  // namespace gonio::test
