@@ -27,15 +27,17 @@ fs::path named_root(const fs::path& folder) {
   return folder;
 }
 
-/// Entries of one root: standards are <family>/<edition>/standard.yaml, the others <id>.yaml.
+/// Entries of one root: standards are <family>/<edition>/standard.yaml or clauses.yaml, the others
+/// <id>.yaml.
 void collect(Catalog::Kind kind, const fs::path& root, std::map<std::string, fs::path>& found) {
-  if (kind == Catalog::Kind::standard) {
+  if (kind == Catalog::Kind::standard || kind == Catalog::Kind::clauses) {
+    const char* name = kind == Catalog::Kind::standard ? "standard.yaml" : "clauses.yaml";
     for (const auto& family : fs::directory_iterator(root / "standards")) {
       if (!family.is_directory()) {
         continue;
       }
       for (const auto& edition : fs::directory_iterator(family)) {
-        const fs::path file = edition.path() / "standard.yaml";
+        const fs::path file = edition.path() / name;
         if (fs::is_regular_file(file)) {
           found.emplace((family.path().filename() / edition.path().filename()).string(), file);
         }
@@ -59,6 +61,8 @@ std::string noun(Catalog::Kind kind) {
   switch (kind) {
     case Catalog::Kind::standard:
       return "a standard file";
+    case Catalog::Kind::clauses:
+      return "a file of clauses";
     case Catalog::Kind::sample:
       return "a sample file";
     case Catalog::Kind::instrument:
@@ -143,6 +147,16 @@ std::vector<Catalog::Entry> Catalog::list(Kind kind) const {
     entries.push_back({id, file});
   }
   return entries;
+}
+
+std::string Catalog::name_of(const std::string& file) const {
+  for (const fs::path& root : roots_) {
+    const std::string below = fs::path(file).lexically_normal().lexically_relative(root).string();
+    if (!below.empty() && !below.starts_with("..")) {
+      return below;
+    }
+  }
+  return file;
 }
 
 fs::path Catalog::fixture(const fs::path& below) const {

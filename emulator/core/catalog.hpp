@@ -12,7 +12,8 @@ namespace gonio {
 /// The folders with gonio's data, in the order in which they are searched.
 class Catalog {
  public:
-  enum class Kind { standard, sample, instrument };
+  /// `clauses` is what a standard demands, beside its numbers, or instead of them.
+  enum class Kind { standard, clauses, sample, instrument };
 
   struct Entry {
     std::string id;
@@ -41,6 +42,8 @@ class Catalog {
   /// A file of the fixtures, e.g. "observers/cie_1931_2deg.csv".
   /// @throws InputError  if no root has it.
   [[nodiscard]] std::filesystem::path fixture(const std::filesystem::path& below) const;
+  /// A file as a report names it: below its data folder, wherever that is; others as they are.
+  [[nodiscard]] std::string name_of(const std::string& file) const;
 
  private:
   [[nodiscard]] std::optional<std::filesystem::path> file_of(Kind kind,

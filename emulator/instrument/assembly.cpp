@@ -21,6 +21,14 @@ double tile_optics_gu(const Glossmeter& glossmeter, const std::string& geometry_
   return glossmeter.read(tile, geometry_id, tolerance).gloss;
 }
 
+StatedSetup stated_setup(const Instrument& instrument, const std::string& geometry_id) {
+  StatedSetup setup;
+  for (std::size_t i = 0; i < setup.size(); ++i) {
+    setup.at(i) = as_built(instrument, geometry_id, static_cast<SetupQuantity>(i));
+  }
+  return setup;
+}
+
 }  // namespace
 
 Device assemble_device(const Glossmeter& glossmeter, Behaviour behaviour,
@@ -34,14 +42,15 @@ Device assemble_device(const Glossmeter& glossmeter, Behaviour behaviour,
          .theta_i = theta_i,
          .tile_assigned_gu =
              assigned_gloss(behaviour.tile_index, theta_i, instrument.standard.scale),
-         .tile_optics_gu = tile_optics_gu(glossmeter, id, behaviour.tile_index, tolerance)});
+         .tile_optics_gu = tile_optics_gu(glossmeter, id, behaviour.tile_index, tolerance),
+         .setup = stated_setup(instrument, id)});
   }
   std::vector<DeviceSample> laid_out;
   for (const Sample& sample : samples) {
     DeviceSample laid{.id = sample.id, .title = sample.title, .gloss_gu = {}};
     for (const Channel& channel : channels) {
       laid.gloss_gu.push_back(
-          glossmeter.read(sample.surface, channel.geometry_id, tolerance).gloss);
+          glossmeter.read(sample.surface, channel.geometry_id, tolerance, sample.tilt).gloss);
     }
     laid_out.push_back(std::move(laid));
   }

@@ -16,7 +16,6 @@ namespace gonio {
 /// @param behaviour   usually instrument.behaviour, or its ideal().
 /// @param tolerance   asked of the integrator, in GU.
 /// @throws InputError  for an aperture of unknown size.
-/// @throws std::invalid_argument  if the standard's scale has no reference glass.
 [[nodiscard]] Device assemble_device(const Glossmeter& glossmeter, Behaviour behaviour,
                                      const std::vector<Sample>& samples, double tolerance);
 

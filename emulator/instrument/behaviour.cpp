@@ -36,7 +36,7 @@ int digits_at(const std::string& text, std::size_t first, std::size_t digits) {
 }
 
 std::string date(const YamlNode& node) {
-  const std::string text = node.is_scalar() ? node.text() : std::string();
+  std::string text = node.is_scalar() ? node.text() : std::string();
   const bool has_form = text.size() == 10 && text[4] == '-' && text[7] == '-';
   if (has_form) {
     const int year = digits_at(text, 0, 4);
@@ -120,14 +120,19 @@ void read_calibration(YamlMap& map, Behaviour& behaviour) {
             [&](const YamlNode& node) { behaviour.calibration_required = node.boolean(); });
 }
 
+/// All channels have a full scale, or none has.
 std::vector<double> read_full_scale(const YamlNode& node,
-                                    const std::vector<std::string>& geometry_ids) {
+                                    const std::vector<std::string>& geometry_ids,
+                                    std::vector<double> full_scale_gu) {
+  const bool is_first = full_scale_gu.empty();
+  full_scale_gu.resize(geometry_ids.size());
   return node.read_map([&](YamlMap& map) {
-    std::vector<double> full_scale_gu;
-    full_scale_gu.reserve(geometry_ids.size());
-    for (const std::string& id : geometry_ids) {
-      full_scale_gu.push_back(
-          map.required(id).gloss_gu({.low = 0.0, .high = largest_gu, .low_open = true}));
+    for (std::size_t i = 0; i < geometry_ids.size(); ++i) {
+      const auto stated =
+          is_first ? std::optional(map.required(geometry_ids[i])) : map.optional(geometry_ids[i]);
+      if (stated) {
+        full_scale_gu[i] = stated->gloss_gu({.low = 0.0, .high = largest_gu, .low_open = true});
+      }
     }
     return full_scale_gu;
   });
@@ -218,11 +223,11 @@ TimedFault read_timed_fault(const YamlNode& node) {
   });
 }
 
-Behaviour read_behaviour(const YamlNode& node, const std::vector<std::string>& geometry_ids) {
+Behaviour read_behaviour(const YamlNode& node, const std::vector<std::string>& geometry_ids,
+                         Behaviour behaviour) {
   return node.read_map([&](YamlMap& map) {
-    Behaviour behaviour;
     if_stated(map, "full_scale", [&](const YamlNode& value) {
-      behaviour.full_scale_gu = read_full_scale(value, geometry_ids);
+      behaviour.full_scale_gu = read_full_scale(value, geometry_ids, behaviour.full_scale_gu);
     });
     read_optics(map, behaviour);
     if_stated(map, "reading_time", [&](const YamlNode& value) {
@@ -240,6 +245,7 @@ Behaviour read_behaviour(const YamlNode& node, const std::vector<std::string>& g
       behaviour.seed = std::uint64_t(value.integer(0, std::numeric_limits<int>::max()));
     });
     if_stated(map, "faults", [&](const YamlNode& value) {
+      behaviour.faults.clear();
       for (const YamlNode& fault : value.list()) {
         behaviour.faults.push_back(read_timed_fault(fault));
       }

@@ -17,9 +17,9 @@ struct Identity {
   std::string manufacturer = "gonio";
   std::string model = "virtual glossmeter";
   std::string serial_number = "0";
-  std::string url = "";
-  std::string calibration_date = "";  ///< of the factory, YYYY-MM-DD
-  std::string calibration_text = "";
+  std::string url = {};
+  std::string calibration_date = {};  ///< of the factory, YYYY-MM-DD
+  std::string calibration_text = {};
 };
 
 /// What can break in an instrument, by itself or on demand.
@@ -39,6 +39,8 @@ struct TimedFault {
   InstrumentFault fault = InstrumentFault::lamp_failure;
   double after_s = 0.0;    ///< since power on
   double magnitude = 0.0;  ///< relative, for drift_step and tile_dirty
+
+  bool operator==(const TimedFault&) const = default;
 };
 
 /// How an instrument departs from what its optics read. Everything that is 0 is ideal.
@@ -79,6 +81,8 @@ struct Behaviour {
   /// The same instrument without noise, drift, warm-up, resolution, full scale and faults, which
   /// reads what its optics read, and measures at once, calibrated or not.
   [[nodiscard]] Behaviour ideal() const;
+
+  bool operator==(const Behaviour&) const = default;
 };
 
 /// Reads the map `identity` of an instrument file. What is not stated keeps its default.
@@ -89,11 +93,13 @@ struct Behaviour {
 /// @throws InputError  for anything that is not as the schema says.
 [[nodiscard]] TimedFault read_timed_fault(const YamlNode& node);
 
-/// Reads the map `behaviour` of an instrument file. What is not stated is ideal, or has its
-/// default.
+/// Reads the map `behaviour` of an instrument file.
 /// @param geometry_ids  of the instrument, in the order of its channels.
+/// @param behaviour     what is not stated stays as it is there; a list of faults that is stated
+///                      replaces the other.
 /// @throws InputError  for anything that is not as the schema says.
 [[nodiscard]] Behaviour read_behaviour(const YamlNode& node,
-                                       const std::vector<std::string>& geometry_ids);
+                                       const std::vector<std::string>& geometry_ids,
+                                       Behaviour behaviour = {});
 
 }  // namespace gonio

@@ -41,14 +41,24 @@ Glossmeter::Glossmeter(Instrument instrument, const WavelengthGrid& grid,
   }
 }
 
+Flux Glossmeter::reflected(const Surface& surface, const std::string& geometry_id,
+                           const MeasuringGeometry& geometry, double tolerance) const {
+  const auto found = instrument_.polarization.find(geometry_id);
+  if (found == instrument_.polarization.end() || found->second == 0.0) {
+    return integrator_->reflected(surface, geometry, weight_, tolerance);
+  }
+  return integrator_->reflected(polarised(surface, found->second), geometry, weight_, tolerance);
+}
+
 Flux Glossmeter::reference_flux(const std::string& geometry_id) const {
-  const GeometryLimits& limits = instrument_.standard.geometry(geometry_id);
-  const MeasuringGeometry geometry = instrument_.geometry(limits.relative_to.value_or(geometry_id));
+  const std::string at =
+      instrument_.standard.geometry(geometry_id).relative_to.value_or(geometry_id);
+  const MeasuringGeometry geometry = instrument_.geometry(at);
   const double incident = integrator_->incident(geometry.source);
   if (!reference_) {
     return {.spectral = ArrayXd::Constant(grid_.size(), incident)};
   }
-  return integrator_->reflected(*reference_, geometry, weight_, reference_tolerance * incident);
+  return reflected(*reference_, at, geometry, reference_tolerance * incident);
 }
 
 GlossReading Glossmeter::read(const Surface& surface, const std::string& geometry_id,
@@ -66,7 +76,7 @@ GlossReading Glossmeter::read(const Surface& surface, const std::string& geometr
   geometry.source = geometry.source.seen_by_tilted(tilt);
   geometry.receptor = geometry.receptor.seen_by_tilted(tilt);
   const double gloss_per_flux = instrument_.standard.scale.value.nominal / reference_luminous;
-  const Flux flux = integrator_->reflected(surface, geometry, weight_, tolerance / gloss_per_flux);
+  const Flux flux = reflected(surface, geometry_id, geometry, tolerance / gloss_per_flux);
   const double luminous = (weight_ * flux.spectral).sum();
   return {.gloss = gloss_per_flux * luminous,
           .quadrature_error =
@@ -76,12 +86,11 @@ GlossReading Glossmeter::read(const Surface& surface, const std::string& geometr
 }
 
 double assigned_gloss(double n, Angle theta_i, const Scale& scale) {
-  if (!scale.refractive_index) {
-    throw std::invalid_argument("assigned_gloss: the scale has no reference glass");
-  }
   const double cos_theta_i = std::cos(theta_i.radians());
-  return scale.value.nominal * fresnel_reflectance(cos_theta_i, n) /
-         fresnel_reflectance(cos_theta_i, scale.refractive_index->nominal);
+  const double reference = scale.refractive_index
+                               ? fresnel_reflectance(cos_theta_i, scale.refractive_index->nominal)
+                               : 1.0;
+  return scale.value.nominal * fresnel_reflectance(cos_theta_i, n) / reference;
 }
 
 }  // namespace gonio

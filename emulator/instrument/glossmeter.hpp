@@ -24,7 +24,8 @@ struct GlossReading {
 ///
 ///   G = value * (Phi_sample) / (Phi_reference)
 ///
-/// with both fluxes through the same apertures, weighted by source times responsivity. The
+/// with both fluxes through the same apertures, weighted by source times responsivity, of surfaces
+/// as an instrument of its polarization sees them. The
 /// reference is a smooth glass of the standard's index at all wavelengths, unless another one is
 /// given, or the incident flux, as the scale says. @see [Mihalik] eq. (16), (17)
 class Glossmeter {
@@ -49,6 +50,8 @@ class Glossmeter {
   [[nodiscard]] const Eigen::ArrayXd& weight() const { return weight_; }
 
  private:
+  [[nodiscard]] Flux reflected(const Surface& surface, const std::string& geometry_id,
+                               const MeasuringGeometry& geometry, double tolerance) const;
   [[nodiscard]] Flux reference_flux(const std::string& geometry_id) const;
 
   Instrument instrument_;
@@ -59,13 +62,14 @@ class Glossmeter {
   std::optional<Surface> reference_;  // none where the scale is relative to the incident flux
 };
 
-/// The value of a polished glass of refractive index n on a scale relative to a reference glass.
+/// The value of a polished glass of refractive index n on a scale,
 ///
-///   G(n) = value * rho(n, theta_i) / rho(n_reference, theta_i)
+///   G(n) = value * rho(n, theta_i) / rho(n_reference, theta_i),
+///
+/// or value * rho(n, theta_i) on a scale relative to the incident flux.
 ///
 /// @param n  > 0.
-/// @throws std::domain_error      if n is outside its range.
-/// @throws std::invalid_argument  if the scale has no reference glass.
+/// @throws std::domain_error  if n is outside its range.
 /// @see    ISO 2813, ASTM D523: Fresnel's formula for unpolarised light
 [[nodiscard]] double assigned_gloss(double n, Angle theta_i, const Scale& scale);
 

@@ -8,47 +8,11 @@
 #include <stdexcept>
 
 #include "emulator/core/yaml_map.hpp"
+#include "emulator/instrument/overlay.hpp"
 
 namespace gonio {
 
 namespace {
-
-OpeningAsBuilt read_opening(const YamlNode& node) {
-  const Range range = Range::closed(0.0, 120.0);
-  return node.read_map([&](YamlMap& map) {
-    OpeningAsBuilt opening{.mark = node.mark()};
-    if (const auto diameter = map.optional("diameter")) {
-      opening.diameter = diameter->angle(range);
-      return opening;
-    }
-    if (const auto in_plane = map.optional("in_plane")) {
-      opening.in_plane = in_plane->angle(range);
-    }
-    if (const auto perpendicular = map.optional("perpendicular")) {
-      opening.perpendicular = perpendicular->angle(range);
-    }
-    return opening;
-  });
-}
-
-GeometryAsBuilt read_geometry(const YamlNode& node) {
-  return node.read_map([&](YamlMap& map) {
-    GeometryAsBuilt geometry{.mark = node.mark()};
-    if (const auto theta_i = map.optional("theta_i")) {
-      geometry.theta_i = theta_i->angle({.low = 0.0, .high = 90.0, .high_open = true});
-    }
-    if (const auto theta_r = map.optional("theta_r")) {
-      geometry.theta_r = theta_r->angle({.low = -90.0, .high = 90.0});
-    }
-    if (const auto source = map.optional("source")) {
-      geometry.source = read_opening(*source);
-    }
-    if (const auto receptor = map.optional("receptor")) {
-      geometry.receptor = read_opening(*receptor);
-    }
-    return geometry;
-  });
-}
 
 std::vector<std::string> ids_of(const Standard& standard) {
   std::vector<std::string> ids;
@@ -80,57 +44,6 @@ std::vector<std::string> read_geometries(const YamlNode& node, const Standard& s
   return ids;
 }
 
-std::map<std::string, GeometryAsBuilt> read_as_built(const YamlNode& node,
-                                                     const Instrument& instrument) {
-  std::map<std::string, GeometryAsBuilt> as_built;
-  const std::vector<std::string> known = ids_of(instrument.standard);
-  node.for_each_entry([&](const std::string& id, const YamlNode& geometry) {
-    if (std::find(known.begin(), known.end(), id) == known.end()) {
-      geometry.fail("a geometry of " + instrument.standard.id, id);
-    }
-    if (!instrument.has(id)) {
-      geometry.fail("one of the geometries of this instrument", id);
-    }
-    as_built.emplace(id, read_geometry(geometry));
-  });
-  return as_built;
-}
-
-std::vector<std::filesystem::path> read_samples(const YamlNode& node, const Catalog& catalog) {
-  std::vector<std::filesystem::path> files;
-  for (const YamlNode& item : node.list()) {
-    files.push_back(catalog.find(Catalog::Kind::sample, item));
-  }
-  return files;
-}
-
-void read_optics(YamlMap& map, Instrument& instrument) {
-  if (const auto geometries = map.optional("geometries")) {
-    instrument.geometries = read_geometries(*geometries, instrument.standard);
-  }
-  if (const auto as_built = map.optional("as_built")) {
-    instrument.as_built = read_as_built(*as_built, instrument);
-  }
-  if (const auto source = map.optional("source_spectrum")) {
-    instrument.source = SpectralTable::load(*source);
-  }
-  if (const auto responsivity = map.optional("responsivity")) {
-    instrument.responsivity = SpectralTable::load(*responsivity);
-  }
-}
-
-void read_device(YamlMap& map, Instrument& instrument) {
-  if (const auto identity = map.optional("identity")) {
-    instrument.identity = read_identity(*identity);
-  }
-  if (const auto behaviour = map.optional("behaviour")) {
-    instrument.behaviour = read_behaviour(*behaviour, instrument.geometries);
-  }
-  if (const auto repeatability = map.optional("repeatability")) {
-    instrument.behaviour.repeatability_gu = repeatability->gloss_gu(Range::not_negative());
-  }
-}
-
 /// A rectangle in place of the standard's circle needs both its sides.
 void expect_both_sides(const OpeningAsBuilt& opening) {
   if (opening.in_plane && opening.perpendicular) {
@@ -146,7 +59,7 @@ void expect_both_sides(const OpeningAsBuilt& opening) {
 
 Aperture build(const Frame& frame, const ApertureLimits& limits, const OpeningAsBuilt& opening) {
   if (opening.diameter) {
-    return Aperture::circle(frame, *opening.diameter);
+    return Aperture::circle(frame, opening.diameter->value);
   }
   if (limits.is_circle() && !opening.in_plane && !opening.perpendicular) {
     return Aperture::circle(frame, limits.diameter->known().nominal);
@@ -154,9 +67,10 @@ Aperture build(const Frame& frame, const ApertureLimits& limits, const OpeningAs
   if (limits.is_circle()) {
     expect_both_sides(opening);
   }
-  const Angle in_plane = opening.in_plane ? *opening.in_plane : limits.in_plane->known().nominal;
+  const Angle in_plane =
+      opening.in_plane ? opening.in_plane->value : limits.in_plane->known().nominal;
   const Angle perpendicular =
-      opening.perpendicular ? *opening.perpendicular : limits.perpendicular->known().nominal;
+      opening.perpendicular ? opening.perpendicular->value : limits.perpendicular->known().nominal;
   return Aperture::rectangle(frame, in_plane, perpendicular);
 }
 
@@ -169,10 +83,10 @@ MeasuringGeometry Instrument::geometry(const std::string& geometry_id) const {
   const GeometryLimits& limits = standard.geometry(geometry_id);
   const auto found = as_built.find(geometry_id);
   const GeometryAsBuilt built = found == as_built.end() ? GeometryAsBuilt{} : found->second;
-  return {.source = build(source_frame(built.theta_i.value_or(limits.theta_i.nominal)),
-                          limits.source, built.source),
-          .receptor = build(receptor_frame(built.theta_r.value_or(limits.receptor_angle())),
-                            limits.receptor, built.receptor)};
+  const Angle theta_i = built.theta_i ? built.theta_i->value : limits.theta_i.nominal;
+  const Angle theta_r = built.theta_r ? built.theta_r->value : limits.receptor_angle();
+  return {.source = build(source_frame(theta_i), limits.source, built.source),
+          .receptor = build(receptor_frame(theta_r), limits.receptor, built.receptor)};
 }
 
 bool Instrument::has(const std::string& geometry_id) const {
@@ -201,11 +115,13 @@ Instrument load_instrument(const std::filesystem::path& path, const Catalog& cat
     if (const auto notes = map.optional("notes")) {
       instrument.notes = notes->text();
     }
-    read_optics(map, instrument);
-    read_device(map, instrument);
-    if (const auto samples = map.optional("samples")) {
-      instrument.samples = read_samples(*samples, catalog);
+    if (const auto geometries = map.optional("geometries")) {
+      instrument.geometries = read_geometries(*geometries, instrument.standard);
     }
+    if (const auto identity = map.optional("identity")) {
+      instrument.identity = read_identity(*identity);
+    }
+    read_overlay(map, instrument, catalog);
     instrument.wire = map.optional("wire");
     return instrument;
   });

@@ -16,16 +16,31 @@
 
 namespace gonio {
 
+/// An angle as it was found.
+struct AngleAsBuilt {
+  Angle value;
+  /// k = 2; nothing: as Instrument::setup_uncertainty says
+  std::optional<Angle> expanded_uncertainty = {};
+};
+
+/// How well what was found is known where that is not stated one by one: k = 2.
+struct SetupUncertainty {
+  Angle angles = {};     ///< of theta_i and theta_r
+  Angle apertures = {};  ///< of the sizes of source and receptor
+
+  bool operator==(const SetupUncertainty&) const = default;
+};
+
 /// The size of an aperture as built; nothing where it is as the standard says.
 struct OpeningAsBuilt {
-  std::optional<Angle> in_plane = {}, perpendicular = {};  ///< of a rectangle
-  std::optional<Angle> diameter = {};                      ///< of a circle
+  std::optional<AngleAsBuilt> in_plane = {}, perpendicular = {};  ///< of a rectangle
+  std::optional<AngleAsBuilt> diameter = {};                      ///< of a circle
   SourceMark mark = {};
 };
 
 /// One geometry as built; nothing where it is as the standard says.
 struct GeometryAsBuilt {
-  std::optional<Angle> theta_i = {}, theta_r = {};
+  std::optional<AngleAsBuilt> theta_i = {}, theta_r = {};
   OpeningAsBuilt source = {}, receptor = {};
   SourceMark mark = {};
 };
@@ -39,7 +54,11 @@ struct Instrument {
   Standard standard;
   std::vector<std::string> geometries = {};  ///< ids of those it has, in the standard's order
   std::map<std::string, GeometryAsBuilt> as_built = {};  ///< by id
-  SpectralTable source;                                  ///< spectral power distribution
+  SetupUncertainty setup_uncertainty = {};
+  /// By id: how much source and receptor together favour light polarised perpendicular to the plane
+  /// of measurement, the P of `polarised`; 0 for a geometry that is not named.
+  std::map<std::string, double> polarization = {};
+  SpectralTable source;  ///< spectral power distribution
   SpectralTable responsivity;
   Identity identity = {};
   Behaviour behaviour = {};

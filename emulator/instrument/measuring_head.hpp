@@ -7,6 +7,7 @@
 
 #include "emulator/core/angle.hpp"
 #include "emulator/instrument/behaviour.hpp"
+#include "emulator/instrument/setup.hpp"
 
 namespace gonio {
 
@@ -27,6 +28,7 @@ struct Channel {
   Angle theta_i;
   double tile_assigned_gu = 100.0;  ///< what the tile's certificate says
   double tile_optics_gu = 100.0;    ///< what the optics read on the clean tile
+  StatedSetup setup = {};           ///< what its maker states of it
 };
 
 /// Something that can be laid on the port.

@@ -48,6 +48,17 @@ GONIO_CLONES void kernel_unpolarised(double cos_theta_i, const Eigen::ArrayXcd& 
   }
 }
 
+GONIO_CLONES void kernel_difference(double cos_theta_i, const Eigen::ArrayXcd& n_hat,
+                                    Eigen::ArrayXd& difference) {
+  const double* __restrict parts = reinterpret_cast<const double*>(n_hat.data());
+  double* __restrict out = difference.data();
+  const Eigen::Index n = n_hat.size();
+  for (Eigen::Index l = 0; l < n; ++l) {
+    const PolarisedReflectance part = reflectances(cos_theta_i, parts[2 * l], parts[2 * l + 1]);
+    out[l] = 0.5 * (part.s - part.p);
+  }
+}
+
 }  // namespace
 
 FresnelAmplitudes fresnel_amplitudes(double cos_theta_i, std::complex<double> n_hat) {
@@ -75,6 +86,15 @@ Eigen::ArrayXd fresnel_reflectance(double cos_theta_i, const Eigen::ArrayXcd& n_
   Eigen::ArrayXd rho(n_hat.size());
   kernel_unpolarised(cos_theta_i, n_hat, rho);
   return rho;
+}
+
+Eigen::ArrayXd fresnel_difference(double cos_theta_i, const Eigen::ArrayXcd& n_hat) {
+  for (const std::complex<double>& index : n_hat) {
+    expect_arguments(cos_theta_i, index);
+  }
+  Eigen::ArrayXd difference(n_hat.size());
+  kernel_difference(cos_theta_i, n_hat, difference);
+  return difference;
 }
 
 double diffuse_fresnel_reflectance(double n) {

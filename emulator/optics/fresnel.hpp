@@ -44,6 +44,11 @@ struct FresnelAmplitudes {
 /// The same for many indices at one angle. @param n_hat  shape (n_lambda). @return (n_lambda).
 [[nodiscard]] Eigen::ArrayXd fresnel_reflectance(double cos_theta_i, const Eigen::ArrayXcd& n_hat);
 
+/// How much more of s than of p polarised light is reflected, (|r_s|^2 - |r_p|^2) / 2: what is to
+/// be added to fresnel_reflectance for light that is polarised s, and taken off for p. The same
+/// arguments, shapes and errors; the result is in [0, 1/2].
+[[nodiscard]] Eigen::ArrayXd fresnel_difference(double cos_theta_i, const Eigen::ArrayXcd& n_hat);
+
 /// Reflectance of a smooth dielectric for diffuse light from outside, int_0^1 2 rho(c) c dc.
 ///
 /// @param n  refractive index, > 1.

@@ -46,17 +46,6 @@ std::optional<ReflectedColour> reflected_colour(const GlossReading& reading,
                          .lab = cielab(xyz, white_point(glossmeter.source(), observer))};
 }
 
-HazeResult haze_by(const HazeRule& rule, const std::map<std::string, double>& gloss) {
-  HazeResult result{.id = rule.id, .value = {}};
-  const auto from = gloss.find(rule.from);
-  const auto minus = gloss.find(rule.minus);
-  if (from != gloss.end() && minus != gloss.end() &&
-      (!rule.only_above || from->second > *rule.only_above)) {
-    result.value = from->second - minus->second;
-  }
-  return result;
-}
-
 }  // namespace
 
 const GeometryResult* Measurement::find(const std::string& geometry_id) const {
@@ -76,7 +65,7 @@ Measurement measure(const Sample& sample, const Glossmeter& glossmeter, const Ob
   for (const std::string& id : geometries_asked_for(glossmeter.instrument(), options)) {
     const GeometryLimits& limits = standard.geometry(id);
     const GlossReading reading =
-        glossmeter.read(sample.surface, id, options.tolerance, options.tilt);
+        glossmeter.read(sample.surface, id, options.tolerance, sample.tilt + options.tilt);
     gloss.emplace(id, reading.gloss);
     measurement.geometries.push_back({.id = id,
                                       .theta_i = limits.theta_i.nominal,
@@ -86,7 +75,7 @@ Measurement measure(const Sample& sample, const Glossmeter& glossmeter, const Ob
   }
   measurement.selected_geometry = standard.select_geometry(gloss);
   for (const HazeRule& rule : standard.haze) {
-    measurement.haze.push_back(haze_by(rule, gloss));
+    measurement.haze.push_back(haze(rule, gloss));
   }
   return measurement;
 }

@@ -8,6 +8,7 @@
 
 #include "emulator/instrument/glossmeter.hpp"
 #include "emulator/optics/colorimetry.hpp"
+#include "emulator/procedure/evaluation.hpp"
 #include "emulator/surface/sample.hpp"
 
 namespace gonio {
@@ -16,7 +17,7 @@ namespace gonio {
 struct MeasureOptions {
   std::vector<std::string> geometries = {};  ///< ids, each measured once; empty for all it has
   double tolerance = 1e-4;                   ///< of the integrator, in the unit of the scale
-  Angle tilt = {};                           ///< of the sample in the plane of measurement
+  Angle tilt = {};                           ///< in the plane of measurement, added to the sample's
 };
 
 /// The colour of the reflected light under the instrument's source, for the 2 deg observer of 1931;
@@ -33,11 +34,6 @@ struct GeometryResult {
   GlossReading reading;
   std::optional<ReflectedColour> colour;  ///< nothing where no light arrives
   Evidence evidence;                      ///< weakest of the numbers that the geometry rests on
-};
-
-struct HazeResult {
-  std::string id;
-  std::optional<double> value;  ///< nothing where the standard does not define it
 };
 
 /// A sample measured by the procedure of a standard.

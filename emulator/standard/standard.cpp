@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 #include "emulator/core/yaml_map.hpp"
@@ -17,25 +18,8 @@ namespace {
 /// Largest refractive index of a reference: above it nothing can be computed.
 constexpr double largest_index = 1000.0;
 
-const std::vector<std::string>& evidence_levels() {
-  static const std::vector<std::string> levels{"C2",   "C1+calc", "C1",
-                                               "calc", "memory",  "memory-low"};
-  return levels;
-}
-
 Range opening_range() { return {.low = 0.0, .high = 120.0, .low_open = true}; }
 Range incidence_range() { return {.low = 0.0, .high = 90.0, .high_open = true}; }
-
-Evidence read_evidence(const YamlNode& node) {
-  return node.read_map([](YamlMap& map) {
-    Evidence evidence;
-    evidence.level = map.required("level").choice(evidence_levels());
-    for (const YamlNode& source : map.required("sources").list_or_empty()) {
-      evidence.sources.push_back(source.text());
-    }
-    return evidence;
-  });
-}
 
 /// `{nominal: ..., tolerance: ..., evidence: {...}}`; `read` reads the number.
 template <class T, class Read>
@@ -281,6 +265,9 @@ Standard read_standard(YamlMap& map, const fs::path& path, const Library& librar
       standard.haze.push_back(read_haze(item));
     }
   }
+  if (const auto readings = map.optional("readings")) {
+    standard.readings = read_reading_rule(*readings);
+  }
   if (const auto rounding = map.optional("rounding")) {
     standard.rounding = rounding->read_map([&](YamlMap& rule) {
       return Stated<double>{.nominal = rule.required("step").gloss_gu(Range::positive()),
@@ -300,14 +287,10 @@ Standard load_from(const fs::path& path, Library library) {
 
 }  // namespace
 
-bool Evidence::is_informative() const { return level == "memory" || level == "memory-low"; }
-
-const Evidence& Evidence::weaker(const Evidence& a, const Evidence& b) {
-  const auto& levels = evidence_levels();
-  return std::find(levels.begin(), levels.end(), a.level) <
-                 std::find(levels.begin(), levels.end(), b.level)
-             ? b
-             : a;
+bool ApertureLimits::is_known() const {
+  return std::ranges::all_of(
+      std::array{&in_plane, &perpendicular, &diameter},
+      [](const std::optional<ApertureSize>* size) { return !*size || (*size)->value; });
 }
 
 const Stated<Angle>& ApertureSize::known() const {

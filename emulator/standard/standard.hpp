@@ -11,30 +11,10 @@
 #include "emulator/core/input_error.hpp"
 #include "emulator/core/length.hpp"
 #include "emulator/core/table.hpp"
+#include "emulator/standard/evidence.hpp"
+#include "emulator/standard/reading_rule.hpp"
 
 namespace gonio {
-
-/// How surely a number of a standard is known.
-struct Evidence {
-  /// From the surest: `C2` two or more independent sources agree, `C1+calc` one source and a
-  /// computation agree, `C1` one source, `calc` computed, `memory` and `memory-low` recalled.
-  std::string level = "C2";
-  std::vector<std::string> sources = {};  ///< keys of standards/sources.yaml
-
-  /// Known only from memory: no verdict may rest on it.
-  [[nodiscard]] bool is_informative() const;
-  /// The less sure of two.
-  [[nodiscard]] static const Evidence& weaker(const Evidence& a, const Evidence& b);
-};
-
-/// A number of a standard, where it stands, and how surely it is known.
-template <class T>
-struct Stated {
-  T nominal;
-  std::optional<T> tolerance = {};  ///< plus and minus; nothing if not known
-  Evidence evidence = {};
-  SourceMark mark = {};
-};
 
 /// One size of an aperture: full angle as seen from the sample, or where the file says `unknown`.
 struct ApertureSize {
@@ -50,6 +30,8 @@ struct ApertureLimits {
   std::optional<ApertureSize> in_plane, perpendicular, diameter;
 
   [[nodiscard]] bool is_circle() const { return diameter.has_value(); }
+  /// The standard leaves none of its sizes unknown.
+  [[nodiscard]] bool is_known() const;
 };
 
 /// One geometry of a standard.
@@ -112,6 +94,7 @@ struct Standard {
   std::vector<GeometryLimits> geometries = {};
   std::optional<Selection> selection = {};
   std::vector<HazeRule> haze = {};
+  std::optional<ReadingRule> readings = {};
   std::optional<Stated<double>> rounding = {};  ///< step to which a value is reported
 
   /// @throws std::out_of_range  if there is no such geometry.

@@ -118,9 +118,26 @@ Colour constant(const ArrayXd& spectrum) {
   return [spectrum](double) { return spectrum; };
 }
 
+/// The product of a colour and a factor that depends on angle; empty if the colour is.
+template <class Factor>
+Colour times(const Colour& colour, Factor factor) {
+  if (!colour) {
+    return {};
+  }
+  return [colour, factor](double cos_theta) -> ArrayXd {
+    return colour(cos_theta) * factor(cos_theta);
+  };
+}
+
 Colour fresnel(double factor, const ArrayXcd& n_hat) {
   return [factor, n_hat](double cos_theta) -> ArrayXd {
     return factor * fresnel_reflectance(std::min(cos_theta, 1.0), n_hat);
+  };
+}
+
+Colour difference(double factor, const ArrayXcd& n_hat) {
+  return [factor, n_hat](double cos_theta) -> ArrayXd {
+    return factor * fresnel_difference(std::min(cos_theta, 1.0), n_hat);
   };
 }
 
@@ -170,7 +187,7 @@ double transmitted_share(double m, double n) {
 
 Surface smooth(const WavelengthGrid& grid, const ArrayXcd& n_hat) {
   Surface surface{.grid = grid};
-  surface.interfaces.push_back(fresnel(1.0, n_hat));
+  surface.interfaces.push_back({fresnel(1.0, n_hat), difference(1.0, n_hat)});
   return surface;
 }
 
@@ -178,7 +195,7 @@ Surface smooth(const WavelengthGrid& grid, double reflectance) {
   const ArrayXd spectrum = ArrayXd::Constant(grid.size(), reflectance);
   expect_reflectance(spectrum);
   Surface surface{.grid = grid};
-  surface.interfaces.push_back(constant(spectrum));
+  surface.interfaces.push_back({constant(spectrum)});
   return surface;
 }
 
@@ -194,7 +211,8 @@ Surface cook_torrance(const WavelengthGrid& grid, double rms_slope, const ArrayX
   const double printed = normalization == Normalization::as_printed ? 4.0 : 1.0;
   return with_diffuse(grid,
                       {.shape = std::make_shared<BeckmannShape>(rms_slope),
-                       .colour = fresnel(printed * amplitudes.specular, n_hat)},
+                       .colour = fresnel(printed * amplitudes.specular, n_hat),
+                       .difference = difference(printed * amplitudes.specular, n_hat)},
                       amplitudes);
 }
 
@@ -203,7 +221,8 @@ Surface ggx(const WavelengthGrid& grid, double alpha, const ArrayXcd& n_hat,
   expect(alpha > 0.0 && alpha <= 1.0, "alpha must be in (0, 1]", alpha);
   return with_diffuse(grid,
                       {.shape = std::make_shared<GgxShape>(alpha, masking),
-                       .colour = fresnel(amplitudes.specular, n_hat)},
+                       .colour = fresnel(amplitudes.specular, n_hat),
+                       .difference = difference(amplitudes.specular, n_hat)},
                       amplitudes);
 }
 
@@ -228,18 +247,20 @@ Surface coherent_roughness(const WavelengthGrid& grid, Length rms_height, Length
   }
   const ArrayXd k_sigma = 4.0 * pi * sigma / grid.nanometres();
   Surface surface{.grid = grid};
-  surface.interfaces.push_back([k_sigma, n_hat](double cos_theta_i) -> ArrayXd {
-    return fresnel_reflectance(cos_theta_i, n_hat) * (-(k_sigma * cos_theta_i).square()).exp();
-  });
+  const Colour even = fresnel(1.0, n_hat);
+  const Colour odd = difference(1.0, n_hat);
+  const auto coherent = [k_sigma](double cos_theta_i) -> ArrayXd {
+    return (-(k_sigma * cos_theta_i).square()).exp();
+  };
+  const auto scattered = [k_sigma](double cos_theta_d) -> ArrayXd {
+    return -(-(k_sigma * cos_theta_d).square()).unaryExpr([](double x) { return std::expm1(x); });
+  };
+  surface.interfaces.push_back({times(even, coherent), times(odd, coherent)});
   surface.lobes.push_back(
       {.shape = std::make_shared<DiffractingShape>(rms_height, correlation_length),
-       .colour = [k_sigma, n_hat](double cos_theta_d) -> ArrayXd {
-         return fresnel_reflectance(std::min(cos_theta_d, 1.0), n_hat) *
-                -(-(k_sigma * cos_theta_d).square()).unaryExpr([](double x) {
-                  return std::expm1(x);
-                });
-       },
-       .shape_parameter = grid.nanometres().inverse()});
+       .colour = times(even, scattered),
+       .shape_parameter = grid.nanometres().inverse(),
+       .difference = times(odd, scattered)});
   return surface;
 }
 
@@ -271,14 +292,15 @@ Surface mixture(const std::vector<Surface>& surfaces, const std::vector<double>&
     expect(weight >= 0.0, "a weight must be >= 0", weight);
     total += weight;
     expect(total <= 1.0 + rounding, "the sum of weights must be <= 1", total);
-    const auto weighted = [weight](const Colour& colour) -> Colour {
-      return [weight, colour](double c) -> ArrayXd { return weight * colour(c); };
+    const auto weighted = [weight](const Colour& colour) {
+      return times(colour, [weight](double) { return weight; });
     };
     for (const Lobe& lobe : surfaces[i].lobes) {
-      sum.lobes.push_back({lobe.shape, weighted(lobe.colour), lobe.shape_parameter});
+      sum.lobes.push_back(
+          {lobe.shape, weighted(lobe.colour), lobe.shape_parameter, weighted(lobe.difference)});
     }
-    for (const Colour& interface : surfaces[i].interfaces) {
-      sum.interfaces.push_back(weighted(interface));
+    for (const Interface& interface : surfaces[i].interfaces) {
+      sum.interfaces.push_back({weighted(interface.colour), weighted(interface.difference)});
     }
   }
   return sum;

@@ -174,6 +174,9 @@ Sample load_sample(const std::filesystem::path& path, const WavelengthGrid& grid
     if (const auto notes = map.optional("notes")) {
       sample.notes = notes->text();
     }
+    if (const auto tilt = map.optional("tilt")) {
+      sample.tilt = tilt->angle(Range::closed(-45.0, 45.0));
+    }
     if (const auto lobes = map.optional("lobes")) {
       if (const auto surface = map.optional("surface")) {
         surface->fail("either surface or lobes", "both");

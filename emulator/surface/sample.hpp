@@ -3,18 +3,21 @@
 #include <filesystem>
 #include <string>
 
+#include "emulator/core/angle.hpp"
 #include "emulator/core/wavelength_grid.hpp"
 #include "emulator/surface/surface.hpp"
 
 namespace gonio {
 
-/// A sample from a file: what it is called, and its surface on a wavelength grid.
+/// A sample from a file: what it is called, its surface on a wavelength grid, and how it lies.
 struct Sample {
   std::filesystem::path file;
   std::string id = {};
   std::string title = {};
   std::string notes = {};
   Surface surface;
+  /// In the plane of measurement, towards the receptor: the wedge that it lies on.
+  Angle tilt = {};
 };
 
 /// Reads a file of schema gonio/sample/1.

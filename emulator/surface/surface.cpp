@@ -1,6 +1,10 @@
 #include "emulator/surface/surface.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace gonio {
 
@@ -35,10 +39,27 @@ ArrayXd Surface::brdf(const Vector3& omega_i, const Vector3& omega_r) const {
 
 ArrayXd Surface::specular_reflectance(double cos_theta_i) const {
   ArrayXd sum = ArrayXd::Zero(grid.size());
-  for (const Colour& interface : interfaces) {
-    sum += interface(cos_theta_i);
+  for (const Interface& interface : interfaces) {
+    sum += interface.colour(cos_theta_i);
   }
   return sum;
+}
+
+Surface polarised(const Surface& surface, double P) {
+  if (!(P >= -1.0 && P <= 1.0)) {
+    throw std::domain_error(fmt::format("polarised: P must be in [-1, 1], is {}", P));
+  }
+  Surface seen = surface;
+  const auto favour = [P](auto& part) {
+    if (part.difference && P != 0.0) {
+      part.colour = [P, s = part.colour, d = part.difference](double cos_theta_d) -> ArrayXd {
+        return s(cos_theta_d) + P * d(cos_theta_d);
+      };
+    }
+  };
+  std::ranges::for_each(seen.lobes, favour);
+  std::ranges::for_each(seen.interfaces, favour);
+  return seen;
 }
 
 void half_angle_cosine(const Vector3& omega_i, const DirectionBatch& omega_r,

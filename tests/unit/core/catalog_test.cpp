@@ -196,6 +196,14 @@ TEST(CatalogStandardPlaces, HaveTheFolderGivenBeforeGonioData) {
   EXPECT_EQ(catalog.find(Kind::sample, "b"), set / "fixtures/samples/b.yaml");
 }
 
+TEST(Catalog, NamesFilesBelowItsFolders) {
+  const Catalog catalog({"/data"});
+  EXPECT_EQ(catalog.name_of("/data/standards/iso/1/cases/../clauses.yaml"),
+            "standards/iso/1/clauses.yaml");
+  EXPECT_EQ(catalog.name_of("/elsewhere/mine.yaml"), "/elsewhere/mine.yaml");
+  EXPECT_EQ(catalog.name_of("modbus://127.0.0.1:502"), "modbus://127.0.0.1:502");
+}
+
 TEST(CatalogStandardPlaces, TakeAnEmptyGonioDataForNone) {
   const GonioData empty("");
   EXPECT_NO_THROW((void)Catalog::standard_places());

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+#include <cmath>
 #include <memory>
 #include <stdexcept>
 
@@ -47,11 +49,36 @@ TEST(AssembleDevice, MeasuresWhatTheGlossmeterReadsToTheLastBitIfItIsIdeal) {
     for (std::size_t s = 0; s < samples.size(); ++s) {
       ASSERT_EQ(test::measure(device, int(s)), DeviceError::none);
       for (std::size_t c = 0; c < device.channels().size(); ++c) {
-        const auto expected =
-            meter.read(samples[s].surface, device.channels()[c].geometry_id, tolerance_gu);
+        const auto expected = meter.read(samples[s].surface, device.channels()[c].geometry_id,
+                                         tolerance_gu, samples[s].tilt);
         EXPECT_EQ(reading_gu(device, c), expected.gloss) << samples[s].id;
       }
     }
+  }
+}
+
+TEST(AssembleDevice, LaysASampleOnItsWedge) {
+  const Instrument instrument = instrument_of("nominal_iso_2813");
+  std::vector<Sample> samples;
+  for (const char* id : {"perfect_mirror", "mirror_tilted_0_2deg", "mirror_tilted_1_0deg"}) {
+    samples.push_back(load_sample(shipped().find(Catalog::Kind::sample, id), grid));
+  }
+  Device device =
+      assemble_device(glossmeter(instrument), instrument.behaviour.ideal(), samples, tolerance_gu);
+  ASSERT_EQ(test::calibrate(device), DeviceError::none);
+  const auto at = [&](int sample) {
+    EXPECT_EQ(test::measure(device, sample), DeviceError::none);
+    return std::array{reading_gu(device, 0), reading_gu(device, 1), reading_gu(device, 2)};
+  };
+  const auto flat = at(0);
+  const auto within_the_clearance = at(1);
+  const auto beyond = at(2);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Angle theta_i = device.channels()[c].theta_i;
+    const double less_light =
+        std::cos((theta_i + degrees(0.2)).radians()) / std::cos(theta_i.radians());
+    EXPECT_TRUE(is_close(within_the_clearance[c], flat[c] * less_light, 1e-3)) << c;
+    EXPECT_LT(beyond[c], 0.8 * flat[c]) << c;
   }
 }
 
@@ -65,7 +92,18 @@ TEST(AssembleDevice, NamesChannelsAndSamples) {
   EXPECT_EQ(device.channels()[2].theta_i, degrees(85));  // nominal: as it is called
   ASSERT_EQ(device.samples().size(), instrument.samples.size());
   EXPECT_EQ(device.samples().front().id, "black_matt");
-  EXPECT_EQ(device.samples().back().title, "Ideal mirror");
+  EXPECT_EQ(device.samples()[14].title, "Smooth gold, Johnson and Christy 1972");
+}
+
+TEST(AssembleDevice, StatesTheSetUpAsItWasBuilt) {
+  const Instrument instrument = instrument_of("triangle_gloss");
+  const Device device =
+      assemble_device(glossmeter(instrument), instrument.behaviour, {}, tolerance_gu);
+  const StatedSetup& at_60 = device.channels()[1].setup;
+  EXPECT_EQ(at_60[std::size_t(SetupQuantity::theta_i)],
+            (StatedAngle{.value = degrees(60.04), .expanded_uncertainty = degrees(0.01)}));
+  EXPECT_EQ(at_60[std::size_t(SetupQuantity::receptor_perpendicular)]->value, degrees(11.62));
+  EXPECT_FALSE(at_60[std::size_t(SetupQuantity::receptor_diameter)]);  // it has sides
 }
 
 // With all its deviations a calibrated instrument reads black glass within what they allow.
@@ -105,9 +143,13 @@ TEST(AssembleDevice, ReadsATileOfAnotherGlassThroughTheOpticsAsBuilt) {
   EXPECT_EQ(device.settings().channels[1].tile_gu, at_60.tile_assigned_gu);
 }
 
-TEST(AssembleDevice, NeedsAScaleWithAReferenceGlass) {
+TEST(AssembleDevice, KnowsAScaleWithoutAReferenceGlass) {
   const Glossmeter meter = glossmeter(nominal_instrument(shipped_standard("astm_c346/87")));
-  EXPECT_THROW((void)assemble_device(meter, Behaviour(), {}, tolerance_gu), std::invalid_argument);
+  const Device device = assemble_device(meter, Behaviour(), {}, tolerance_gu);
+  constexpr double over_the_source_image_gu = 0.02;  // 1.4 x 3.0 deg
+  const Channel& at_45 = device.channels()[0];
+  EXPECT_TRUE(is_close(at_45.tile_assigned_gu, 59.71, over_the_source_image_gu));
+  EXPECT_TRUE(is_close(at_45.tile_optics_gu, 59.71, over_the_source_image_gu));
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include "emulator/instrument/glossmeter.hpp"
 #include "tests/unit/csv_rows.hpp"
+#include "tests/unit/expect_close.hpp"
 #include "tests/unit/standard/shipped_standards.hpp"
 
 // The value of a polished glass by its index: 100 rho(n) / rho(1.567).
@@ -14,6 +15,7 @@
 namespace gonio {
 namespace {
 
+using test::is_close;
 using test::shipped_standard;
 
 constexpr double two_decimals = 0.0051;
@@ -145,9 +147,18 @@ TEST(AssignedGloss, GrowsWithTheIndexOfGlasses) {
   }
 }
 
-TEST(AssignedGloss, NeedsAReferenceGlassAndAnIndex) {
-  EXPECT_THROW((void)assigned_gloss(1.5, degrees(45), shipped_standard("astm_c346/87").scale),
-               std::invalid_argument);
+// ASTM C346 and C584 count thousandths of the incident light.
+TEST(AssignedGloss, IsTheReflectanceOnAScaleWithoutAReferenceGlass) {
+  constexpr double printed = 0.005;
+  EXPECT_TRUE(is_close(assigned_gloss(1.567, degrees(45), shipped_standard("astm_c346/87").scale),
+                       59.71, printed));
+  EXPECT_TRUE(is_close(assigned_gloss(1.540, degrees(45), shipped_standard("astm_c346/87").scale),
+                       55.87, printed));
+  EXPECT_TRUE(is_close(assigned_gloss(1.567, degrees(60), shipped_standard("astm_c584/81").scale),
+                       100.06, printed));
+}
+
+TEST(AssignedGloss, NeedsAnIndex) {
   const Scale scale = shipped_standard("iso_2813/2014").scale;
   EXPECT_THROW((void)assigned_gloss(0.0, degrees(60), scale), std::domain_error);
   EXPECT_THROW((void)assigned_gloss(-1.5, degrees(60), scale), std::domain_error);

@@ -128,6 +128,31 @@ TEST(ReadBehaviour, KeepsTheDefaultOfWhatIsNotStated) {
   EXPECT_TRUE(b.faults.empty());
 }
 
+TEST(ReadBehaviour, LeavesWhatIsNotStatedAsItWas) {
+  const std::vector<std::string> channels{"20", "60"};
+  Behaviour before;
+  before.full_scale_gu = {2000.0, 1000.0};
+  before.ambient_c = 21.0;
+  before.signal_per_k = -0.001;
+  before.faults = {{.fault = InstrumentFault::lamp_failure, .after_s = 1.0}};
+  const auto laid_over = [&](const std::string& text) {
+    return read_behaviour(YamlNode::parse(text, "b.yaml"), channels, before);
+  };
+  EXPECT_EQ(laid_over("{}"), before);
+  Behaviour expected = before;
+  expected.signal_per_k = 0.002;
+  EXPECT_EQ(laid_over("temperature: {signal_per_kelvin: 0.002}"), expected);
+  expected = before;
+  expected.full_scale_gu = {2000.0, 500.0};
+  EXPECT_EQ(laid_over("full_scale: {\"60\": 500 GU}"), expected);
+  expected = before;
+  expected.linearity = 0.02;
+  EXPECT_EQ(laid_over("linearity: 0.02"), expected);
+  expected = before;
+  expected.faults = {{.fault = InstrumentFault::over_range, .after_s = 2.0}};
+  EXPECT_EQ(laid_over("faults: [{fault: over_range, after: 2 s}]"), expected);
+}
+
 TEST(ReadBehaviour, RefusesWhatIsNotAsTheSchemaSays) {
   const std::vector<Refused> table{
       {"[]", ":1:1: expected a map of keys and values, found 'a list'"},

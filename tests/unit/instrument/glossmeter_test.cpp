@@ -1,14 +1,19 @@
 #include "emulator/instrument/glossmeter.hpp"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "emulator/integration/aperture_integrator.hpp"
+#include "emulator/optics/fresnel.hpp"
 #include "emulator/optics/refractive_index.hpp"
 #include "emulator/surface/models.hpp"
 #include "tests/unit/expect_close.hpp"
@@ -231,6 +236,104 @@ TEST(GlossmeterErrors, OfASpectrumThatDoesNotCoverTheWavelengths) {
   const WavelengthGrid infrared(nanometres(1000), nanometres(5), 3);
   EXPECT_THROW((void)Glossmeter(instrument, infrared, std::make_shared<ApertureIntegrator>()),
                InputError);
+}
+
+// Polarisation.
+
+Instrument polarised_iso_2813(double P) {
+  return instrument_of(fmt::format("built_to: iso_2813/2014\npolarization: {}\n", P));
+}
+/// With a point for a source, closed forms hold to the integrator's tolerance.
+Instrument polarised_collimated(double P) {
+  Instrument instrument =
+      load_instrument(shipped().find(Catalog::Kind::instrument, "collimated_iso_2813"), shipped());
+  for (const std::string& id : instrument.geometries) {
+    instrument.polarization[id] = P;
+  }
+  return instrument;
+}
+
+/// R_s, R_p of a smooth glass as an instrument of polarisation P weighs them.
+double weighed(double n, const std::string& geometry, double P) {
+  const PolarisedReflectance R =
+      fresnel_polarised(std::cos(degrees(std::stod(geometry)).radians()), n);
+  return 0.5 * ((1.0 + P) * R.s + (1.0 - P) * R.p);
+}
+
+constexpr std::array polarisations{-1.0, -0.3, 0.01, 0.5, 1.0};
+
+TEST(PolarisedGlossmeter, StillReadsTheStandardsValueOfItsReference) {
+  for (const double P : polarisations) {
+    for (const char* id : {"20", "60", "85"}) {
+      EXPECT_TRUE(is_close(gloss(glossmeter(polarised_iso_2813(P)), glass(1.567), id), 100.0, 1e-9))
+          << id << ", P = " << P;
+    }
+  }
+}
+
+TEST(PolarisedGlossmeter, ReadsSmoothGlassByFresnelsFormulas) {
+  for (const double P : polarisations) {
+    const Glossmeter meter = glossmeter(polarised_collimated(P));
+    for (const char* id : {"20", "60", "85"}) {
+      const double expected = 100.0 * weighed(1.5, id, P) / weighed(1.567, id, P);
+      EXPECT_TRUE(is_close(gloss(meter, glass(1.5), id), expected, 1e-9 * expected))
+          << id << ", P = " << P;
+      const double of_mirror = 100.0 / weighed(1.567, id, P);
+      EXPECT_TRUE(is_close(gloss(meter, mirror(), id), of_mirror, 1e-9 * of_mirror))
+          << id << ", P = " << P;
+    }
+  }
+}
+
+// (R_s - R_p) / (R_s + R_p) of glass of n = 1.567 is 0.162, 0.991 and 0.210: what is not polarised
+// by reflection reads less by that share of P.
+TEST(PolarisedGlossmeter, ReadsLessByTheDiattenuationOfTheTile) {
+  constexpr double of_the_source = 0.002;  // over which the tile's is averaged; and three decimals
+  constexpr double P = 0.01;
+  const Glossmeter meter = glossmeter(polarised_iso_2813(P));
+  const std::vector<std::pair<std::string, double>> known{
+      {"20", 0.162}, {"60", 0.991}, {"85", 0.210}};
+  for (const auto& [id, diattenuation] : known) {
+    for (const Surface& surface : {mirror(), white()}) {
+      const double share =
+          gloss(nominal("iso_2813/2014"), surface, id) / gloss(meter, surface, id) - 1.0;
+      EXPECT_TRUE(is_close(share / P, diattenuation, of_the_source)) << id;
+    }
+  }
+}
+
+TEST(PolarisedGlossmeter, OfNoPolarizationReadsTheSameToTheLastBit) {
+  const Glossmeter plain = nominal("iso_2813/2014");
+  const Glossmeter zero = glossmeter(polarised_iso_2813(0.0));
+  const Surface paint = cook_torrance(grid, 0.05, Eigen::ArrayXcd::Constant(grid.size(), 1.5));
+  for (const char* id : {"20", "60", "85"}) {
+    EXPECT_EQ(gloss(zero, paint, id), gloss(plain, paint, id)) << id;
+    EXPECT_EQ(gloss(zero, glass(1.5), id), gloss(plain, glass(1.5), id)) << id;
+  }
+}
+
+// A lobe much narrower than the receptor reads as the smooth surface does.
+TEST(PolarisedGlossmeter, SeesTheFacetsOfALobe) {
+  constexpr double of_the_tails = 0.01;  // relative: what misses the receptor
+  const Glossmeter meter = glossmeter(polarised_collimated(0.5));
+  const Surface paint = cook_torrance(grid, 0.003, Eigen::ArrayXcd::Constant(grid.size(), 1.5));
+  for (const char* id : {"20", "60"}) {
+    const double smooth_paint = gloss(meter, glass(1.5), id);
+    EXPECT_TRUE(is_close(gloss(meter, paint, id), smooth_paint, of_the_tails * smooth_paint)) << id;
+  }
+}
+
+TEST(PolarisedGlossmeter, ReadsItsReferenceInTheGeometryOfTheReference) {
+  const std::string openings =
+      "{source: {diameter: 0.5 deg}, receptor: {in_plane: 1 deg, perpendicular: 1 deg}}";
+  Instrument haze = instrument_of("built_to: astm_e430/11\nas_built:\n  \"20\": " + openings +
+                                  "\n  \"20_r18_1\": " + openings + "\n");
+  const double unpolarised = gloss(glossmeter(haze), white(), "20_r18_1");
+  haze.polarization["20_r18_1"] = 0.5;
+  EXPECT_EQ(gloss(glossmeter(haze), white(), "20_r18_1"), unpolarised);
+  haze.polarization["20"] = 0.5;
+  EXPECT_TRUE(is_close(unpolarised / gloss(glossmeter(haze), white(), "20_r18_1"),
+                       1.0 + 0.5 * 0.162, 5e-4));  // by the diattenuation of the tile at 20 deg
 }
 
 }  // namespace

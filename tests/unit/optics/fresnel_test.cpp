@@ -120,6 +120,34 @@ TEST(FresnelReflectance, IsTheMeanOfBothPolarisationsAndTheSameInABatch) {
   }
 }
 
+TEST(FresnelDifference, IsHalfTheDifferenceOfBothPolarisations) {
+  constexpr double rounding = 1e-15;
+  Eigen::ArrayXcd n_hat(Eigen::Index(materials.size()));
+  std::copy(materials.begin(), materials.end(), n_hat.begin());
+  for (const double angle_deg : {0.0, 20.0, 60.0, 85.0, 90.0}) {
+    const double cos_theta_i = std::max(cosine(angle_deg), 0.0);
+    const Eigen::ArrayXd difference = fresnel_difference(cos_theta_i, n_hat);
+    ASSERT_EQ(difference.size(), n_hat.size());
+    for (Eigen::Index i = 0; i < n_hat.size(); ++i) {
+      const PolarisedReflectance rho = fresnel_polarised(cos_theta_i, n_hat(i));
+      EXPECT_NEAR(difference(i), (rho.s - rho.p) / 2.0, rounding) << n_hat(i);
+    }
+  }
+  EXPECT_LT(fresnel_difference(1.0, n_hat).abs().maxCoeff(), rounding);
+}
+
+TEST(FresnelDifference, IsTheWholeReflectanceAtBrewstersAngle) {
+  const double cos_brewster = 1.0 / std::sqrt(1.0 + 1.5 * 1.5);
+  EXPECT_DOUBLE_EQ(fresnel_difference(cos_brewster, Eigen::ArrayXcd::Constant(1, 1.5))(0),
+                   fresnel_reflectance(cos_brewster, Complex(1.5)));
+}
+
+TEST(FresnelDifference, RefusesArgumentsOutsideTheirRange) {
+  EXPECT_THROW((void)fresnel_difference(1.1, Eigen::ArrayXcd::Constant(1, 1.5)), std::domain_error);
+  EXPECT_THROW((void)fresnel_difference(0.5, Eigen::ArrayXcd::Constant(1, -1.5)),
+               std::domain_error);
+}
+
 TEST(FresnelReflectance, RefusesArgumentsOutsideTheirRange) {
   const double not_a_number = std::numeric_limits<double>::quiet_NaN();
   for (const double cos_theta_i : {-0.1, 1.1, not_a_number}) {

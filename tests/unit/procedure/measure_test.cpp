@@ -193,6 +193,60 @@ TEST(MeasureTilt, ClipsAMirrorAndIsOnlyOfTheSample) {
       is_close(tilted.find("60")->reading.gloss / flat.find("60")->reading.gloss, 1.0, 0.03));
 }
 
+TEST(MeasureTilt, OfASampleOnAWedgeIsAsIfAskedFor) {
+  const Measurement wedge = measured("mirror_tilted_1_0deg", "iso_2813/2014");
+  const Measurement asked = measured("perfect_mirror", "iso_2813/2014", {.tilt = degrees(1.0)});
+  for (const GeometryResult& result : wedge.geometries) {
+    EXPECT_EQ(result.reading.gloss, asked.find(result.id)->reading.gloss) << result.id;
+  }
+}
+
+TEST(MeasureTilt, IsAddedToThatOfTheSample) {
+  const Measurement flat = measured("perfect_mirror", "iso_2813/2014");
+  const Measurement level =
+      measured("mirror_tilted_1_0deg", "iso_2813/2014", {.tilt = degrees(-1.0)});
+  for (const GeometryResult& result : flat.geometries) {
+    EXPECT_EQ(result.reading.gloss, level.find(result.id)->reading.gloss) << result.id;
+  }
+}
+
+/// What is left of the light on a mirror tilted towards the receptor: a share of cos(theta_i + t).
+double share_of(const std::string& sample, const std::string& geometry, double tilt_deg) {
+  const GeometryResult flat =
+      *measured("perfect_mirror", "iso_2813/2014", {.geometries = {geometry}}).find(geometry);
+  const GeometryResult tilted =
+      *measured(sample, "iso_2813/2014", {.geometries = {geometry}}).find(geometry);
+  return tilted.reading.gloss / flat.reading.gloss * std::cos(flat.theta_i.radians()) /
+         std::cos((flat.theta_i + degrees(tilt_deg)).radians());
+}
+
+TEST(MeasureTilt, LeavesAllOfAMirrorsLightWithinTheClearanceOfTheReceptor) {
+  constexpr double rounding = 1e-6;  // 1e-4 GU in 100 GU, twice
+  for (const std::string geometry : {"20", "60", "85"}) {
+    EXPECT_TRUE(is_close(share_of("mirror_tilted_0_2deg", geometry, 0.2), 1.0, rounding))
+        << geometry;
+  }
+}
+
+/// The share of cos i in the lower part of an image of 0.75 deg; angles in degrees.
+double lower_part(double theta_i_deg, double kept_deg) {
+  const auto up_to = [&](double from_axis_deg) {
+    return std::sin(degrees(theta_i_deg + from_axis_deg).radians()) -
+           std::sin(degrees(theta_i_deg - 0.375).radians());
+  };
+  return up_to(kept_deg - 0.375) / up_to(0.375);
+}
+
+// The image moves by 2 deg, from 1.625 deg on; the receptors reach 0.9, 2.2 and 2 deg.
+TEST(MeasureTilt, LosesWhatTheReceptorClips) {
+  constexpr double of_the_tangents = 1e-3;  // equal steps of them are not equal angles
+  EXPECT_EQ(share_of("mirror_tilted_1_0deg", "20", 1.0), 0.0);
+  EXPECT_TRUE(is_close(share_of("mirror_tilted_1_0deg", "60", 1.0), lower_part(61.0, 2.2 - 1.625),
+                       of_the_tangents));
+  EXPECT_TRUE(is_close(share_of("mirror_tilted_1_0deg", "85", 1.0), lower_part(86.0, 2.0 - 1.625),
+                       of_the_tangents));
+}
+
 TEST(MeasureColour, OfAMirrorIsWhiteAndOfCopperIsReddish) {
   const ReflectedColour white =
       measured("perfect_mirror", "iso_2813/2014").find("60")->colour.value();

@@ -119,6 +119,28 @@ TEST(ShippedSamples, ReadAGlossThatIsNotNegativeAndAReflectanceUpToOne) {
   }
 }
 
+// fixtures/reference/fresnel_gloss_vs_n.csv, to the three decimals printed there; n = 1.527 is the
+// example of ASTM D523.
+TEST(ShippedSamples, OfPolishedGlassReadTheirAssignedValues) {
+  struct Glass {
+    const char* id;
+    double at_20, at_60, at_85, decimals;
+  };
+  const Glossmeter meter = shipped_meter("collimated_iso_2813");
+  for (const Glass& glass : {Glass{"glass_n1400", 57.048, 71.936, 96.636, 5e-4},
+                             Glass{"glass_n1500", 82.045, 89.137, 98.975, 5e-4},
+                             Glass{"glass_n1527", 89.2, 93.6, 99.4, 0.05},
+                             Glass{"glass_n1600", 109.120, 105.179, 100.390, 5e-4},
+                             Glass{"glass_n1700", 137.610, 120.268, 101.219, 5e-4},
+                             Glass{"glass_n1800", 167.010, 134.568, 101.655, 5e-4}}) {
+    const Surface surface = shipped_sample(glass.id).surface;
+    const double rounded = glass.decimals + 1e-6;
+    EXPECT_NEAR(meter.read(surface, "20", 1e-7).gloss, glass.at_20, rounded) << glass.id;
+    EXPECT_NEAR(meter.read(surface, "60", 1e-7).gloss, glass.at_60, rounded) << glass.id;
+    EXPECT_NEAR(meter.read(surface, "85", 1e-7).gloss, glass.at_85, rounded) << glass.id;
+  }
+}
+
 // What the notes of a sample promise.
 TEST(ShippedSamples, ReadWhatTheirNotesSayAtSixtyDegrees) {
   constexpr double about = 1.0;

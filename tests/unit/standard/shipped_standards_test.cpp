@@ -37,6 +37,23 @@ TEST(ShippedStandards, ClaimNoMoreThanAPartialTranscription) {
   }
 }
 
+std::vector<Evidence> evidence_of_readings(const Standard& standard) {
+  std::vector<Evidence> evidence;
+  const auto add = [&](const auto& part) {
+    if (part) {
+      evidence.push_back(part->evidence);
+    }
+  };
+  if (standard.readings) {
+    evidence.push_back(standard.readings->count.evidence);
+    add(standard.readings->more);
+    add(standard.readings->not_uniform);
+    add(standard.readings->reject);
+    add(standard.readings->report);
+  }
+  return evidence;
+}
+
 /// Every source that a number of the standard names.
 std::set<std::string> sources_of(const Standard& standard) {
   std::set<std::string> sources;
@@ -60,6 +77,9 @@ std::set<std::string> sources_of(const Standard& standard) {
         }
       }
     }
+  }
+  for (const Evidence& evidence : evidence_of_readings(standard)) {
+    add(evidence);
   }
   return sources;
 }
@@ -86,6 +106,9 @@ TEST(ShippedStandards, SayMemoryWhereNoSourceIsNamed) {
       if (geometry.theta_i.evidence.sources.empty()) {
         EXPECT_TRUE(geometry.theta_i.evidence.is_informative()) << id << " " << geometry.id;
       }
+    }
+    for (const Evidence& evidence : evidence_of_readings(shipped_standard(id))) {
+      EXPECT_TRUE(!evidence.sources.empty() || evidence.is_informative()) << id << " readings";
     }
   }
 }

@@ -37,8 +37,8 @@ const std::string theta_i = "    theta_i: {nominal: 60 deg,";
 TEST(StandardErrors, OfKeys) {
   EXPECT_EQ(
       error_with("edition: first\n", "edition: first\ncolour: red\n"),
-      ":5:1: colour: expected one of the keys edition, geometries, haze, id, notes, rounding, "
-      "scale, schema, selection, spectral, title, transcription, found 'colour'");
+      ":5:1: colour: expected one of the keys edition, geometries, haze, id, notes, readings, "
+      "rounding, scale, schema, selection, spectral, title, transcription, found 'colour'");
   EXPECT_EQ(error_with("title: House method\n", ""),
             ":1:1: title: expected the key 'title', found 'only schema, id, edition, "
             "transcription, scale, spectral, geometries'");

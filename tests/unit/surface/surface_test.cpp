@@ -4,7 +4,9 @@
 
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
+#include "emulator/optics/fresnel.hpp"
 #include "tests/unit/expect_close.hpp"
 #include "tests/unit/surface/every_model.hpp"
 
@@ -109,6 +111,75 @@ TEST(Surface, SumsItsLobesAndItsInterfaces) {
                              models[8].surface.specular_reflectance(i.z());
     EXPECT_LT((both.specular_reflectance(i.z()) - specular).abs().maxCoeff(), rounding);
   }
+}
+
+// Polarisation.
+
+TEST(PolarisedSurface, IsUnpolarisedInTheMeanOfBothAndNeverNegative) {
+  constexpr double rounding = 1e-14;
+  for (const NamedSurface& model : test::every_model()) {
+    std::mt19937 random(seed);
+    const Surface s = polarised(model.surface, 1.0);
+    const Surface p = polarised(model.surface, -1.0);
+    for (int k = 0; k < 100; ++k) {
+      const Vector3 i = random_direction(random);
+      const Vector3 r = random_direction(random);
+      const ArrayXd mean = 0.5 * (s.brdf(i, r) + p.brdf(i, r));
+      EXPECT_LT((mean - model.surface.brdf(i, r)).abs().maxCoeff(), rounding * mean.maxCoeff())
+          << model.name;
+      EXPECT_GE(p.brdf(i, r).minCoeff(), 0.0) << model.name;
+      EXPECT_LT((0.5 * (s.specular_reflectance(i.z()) + p.specular_reflectance(i.z())) -
+                 model.surface.specular_reflectance(i.z()))
+                    .abs()
+                    .maxCoeff(),
+                rounding)
+          << model.name;
+    }
+  }
+}
+
+// Each reflects in its mirror direction, but for the diffuse part, R_s and R_p of its facets.
+TEST(PolarisedSurface, ReflectsByFresnelsFormulaOfItsFacets) {
+  constexpr double rounding = 1e-12;
+  const std::complex<double> metal(1.15, 2.5);
+  const WavelengthGrid one(nanometres(550), nanometres(1), 1);
+  const Eigen::ArrayXcd n_hat = Eigen::ArrayXcd::Constant(1, metal);
+  const Vector3 i = source_frame(degrees(60)).axis;
+  const PolarisedReflectance R = fresnel_polarised(i.z(), metal);
+  const double expected = R.s / R.p;
+  for (const Surface& surface :
+       {cook_torrance(one, 0.2, n_hat), ggx(one, 0.3, n_hat),
+        coherent_roughness(one, nanometres(120), micrometres(1.5), n_hat),
+        mixture({cook_torrance(one, 0.2, n_hat), ggx(one, 0.3, n_hat)}, {0.3, 0.6})}) {
+    const double s = polarised(surface, 1.0).brdf(i, mirrored(i))(0);
+    const double p = polarised(surface, -1.0).brdf(i, mirrored(i))(0);
+    EXPECT_TRUE(is_close_relative(s / p, expected, rounding));
+  }
+  for (const Surface& surface :
+       {smooth(one, n_hat), coherent_roughness(one, nanometres(120), micrometres(1.5), n_hat),
+        mixture({smooth(one, n_hat), smooth(one, n_hat)}, {0.3, 0.6})}) {
+    const double s = polarised(surface, 1.0).specular_reflectance(i.z())(0);
+    const double p = polarised(surface, -1.0).specular_reflectance(i.z())(0);
+    EXPECT_TRUE(is_close_relative(s / p, expected, rounding));
+  }
+}
+
+TEST(PolarisedSurface, IsTheSameWhereTheModelHasNoPolarisation) {
+  const WavelengthGrid& grid = test::two_wavelengths;
+  const ArrayXd grey = ArrayXd::Constant(2, 0.5);
+  const Vector3 i = source_frame(degrees(60)).axis;
+  for (const Surface& surface :
+       {lambertian(grid, grey), ward(grid, 0.1, 0.2, {.specular = 0.4, .diffuse = grey})}) {
+    EXPECT_EQ(polarised(surface, 0.7).brdf(i, mirrored(i))(0), surface.brdf(i, mirrored(i))(0));
+  }
+  EXPECT_EQ(polarised(smooth(grid, 0.5), 0.7).specular_reflectance(0.5)(0), 0.5);
+}
+
+TEST(PolarisedSurface, NeedsAPolarizationOfAtMostOne) {
+  const Surface mirror = smooth(test::two_wavelengths, 1.0);
+  EXPECT_THROW((void)polarised(mirror, 1.001), std::domain_error);
+  EXPECT_THROW((void)polarised(mirror, -1.001), std::domain_error);
+  EXPECT_THROW((void)polarised(mirror, std::nan("")), std::domain_error);
 }
 
 TEST(HalfAngleCosine, IsTheCosineBetweenADirectionAndTheBisector) {
