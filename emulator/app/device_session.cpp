@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <stdexcept>
-#include <thread>
 
 namespace gonio::app {
 
@@ -21,8 +20,6 @@ void add_device_options(CLI::App& command, DeviceOptions& options) {
   command.add_option("--timeout", options.timeout, "Longest wait for an answer")
       ->capture_default_str();
 }
-
-void pause_between_questions() { std::this_thread::sleep_for(std::chrono::milliseconds(50)); }
 
 std::chrono::milliseconds parse_duration(const std::string& option, const std::string& text,
                                          const Range& range_s) {

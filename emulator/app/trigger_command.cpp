@@ -2,11 +2,11 @@
 #include <unistd.h>
 
 #include <memory>
+#include <optional>
 
 #include "emulator/app/command.hpp"
 #include "emulator/app/device_report.hpp"
 #include "emulator/app/device_session.hpp"
-#include "emulator/protocol/point_text.hpp"
 
 namespace gonio::app {
 
@@ -32,54 +32,31 @@ std::vector<std::string> command_names() {
   return names;
 }
 
-DeviceView read_outcome(ModbusClient& client) {
-  return {client,
-          {&known_point("command_sequence"), &known_point("last_command"),
-           &known_point("command_state"), &known_point("command_error")}};
-}
-
-/// Waits until a command is over. @param before  the sequence number before it was given.
+/// Waits until a command is over.
 /// @throws DeviceRefusal  if it fails, or takes longer.
-void await(ModbusClient& client, const std::string& command, double before,
+void await(ModbusClient& client, const std::string& name, const GivenCommand& command,
            steady_clock::time_point deadline) {
-  const std::string what = fmt::format("{}: {}", client.url().text(), command);
-  for (;;) {
-    const DeviceView view = retry_while_busy(busy_patience, [&] { return read_outcome(client); });
-    const bool is_ours = view.number("command_sequence") != before;
-    const std::string state = view.text("command_state");
-    if (is_ours && view.text("last_command") != command) {
-      throw DeviceRefusal(
-          fmt::format("{}: expected to hear what became of it, found that someone "
-                      "else gave the command {} meanwhile",
-                      what, view.text("last_command")));
-    }
-    if (is_ours && state == "failed") {
-      throw DeviceRefusal(fmt::format("{}: {}: {}", what, view.text("command_error"),
-                                      view.meaning("command_error")));
-    }
-    if (is_ours && state == "done") {
-      return;
-    }
-    if (steady_clock::now() >= deadline) {
-      throw DeviceRefusal(fmt::format("{}: still running; see `gonio watch`", what));
-    }
-    pause_between_questions();
+  const std::string what = fmt::format("{}: {}", client.url().text(), name);
+  const std::optional<DeviceView> view = command.outcome(deadline);
+  if (!view) {
+    throw DeviceRefusal(fmt::format("{}: still running; see `gonio watch`", what));
+  }
+  if (view->text("command_state") == "failed") {
+    throw DeviceRefusal(fmt::format("{}: {}: {}", what, view->text("command_error"),
+                                    view->meaning("command_error")));
   }
 }
 
 void run(const Options& options) {
   const auto wait = parse_duration("--wait", options.wait, Range::closed(0.0, 86'400.0));
-  const std::vector<std::uint16_t> code = parse_value(known_point("command"), options.command);
   ModbusClient client = options.device.connect();
   const auto deadline = steady_clock::now() + wait;
-  const double before =
-      retry_while_busy(wait, [&] { return read_outcome(client); }).number("command_sequence");
-  retry_while_busy(wait, [&] { client.write_registers(known_point("command").address, code); });
+  const GivenCommand command(client, options.command, wait);
   if (wait == milliseconds(0)) {
     print(fmt::format("{}: accepted\n", options.command));
     return;
   }
-  await(client, options.command, before, deadline);
+  await(client, options.command, command, deadline);
   if (options.command != "measure") {
     print(fmt::format("{}: done\n", options.command));
     return;

@@ -171,6 +171,21 @@ void add_channel_values(Values& values) {
                  }});
 }
 
+/// As the maker states it, with its expanded uncertainty.
+void add_setup(Values& values) {
+  for (std::size_t quantity = 0; quantity < setup_quantity_count; ++quantity) {
+    const auto add = [&](const std::string& name, Angle StatedAngle::*part) {
+      values.emplace(name, each_built([quantity, part](const Channel& channel) {
+                       const std::optional<StatedAngle>& stated = channel.setup.at(quantity);
+                       return stated ? ((*stated).*part).degrees() : none;
+                     }));
+    };
+    const std::string name = setup_quantity_names.at(quantity);
+    add(name, &StatedAngle::value);
+    add(name + "_uncertainty", &StatedAngle::expanded_uncertainty);
+  }
+}
+
 void add_settings(Values& values) {
   const auto add = [&](const char* name, auto read) { values.emplace(name, whole(read)); };
   add("command", [](const View& v) {
@@ -216,7 +231,7 @@ const std::map<std::string, InstrumentValue>& instrument_values() {
   static const Values values = [] {
     Values all;
     for (const auto add : {add_status_bits, add_alarm_bits, add_status, add_channel_values,
-                           add_settings, add_commands, add_server_values}) {
+                           add_setup, add_settings, add_commands, add_server_values}) {
       add(all);
     }
     return all;

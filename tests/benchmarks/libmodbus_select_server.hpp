@@ -12,10 +12,9 @@ namespace gonio::bench {
 /// The server that libmodbus offers for many clients: one thread and select(), as in its
 /// tests/bandwidth-server-many-up.c. Never returns.
 /// @param listener  a listening socket.
-[[noreturn]] inline void serve_with_libmodbus(int listener, int first_register, int registers) {
+/// @param map       what it serves.
+[[noreturn]] inline void serve_with_libmodbus(int listener, modbus_mapping_t* map) {
   modbus_t* const context = modbus_new_tcp("127.0.0.1", 0);
-  modbus_mapping_t* const map = modbus_mapping_new_start_address(
-      0, 0, 0, 0, unsigned(first_register), unsigned(registers), 0, 0);
   fd_set all;
   FD_ZERO(&all);
   FD_SET(listener, &all);

@@ -99,7 +99,10 @@ class LibmodbusServer final : public ServerProcess {
       throw std::system_error(errno, std::generic_category(), "listen");
     }
     port_ = ntohs(address.sin_port);
-    start([=] { serve_with_libmodbus(listener, first_register, 100); });
+    start([=] {
+      serve_with_libmodbus(listener, modbus_mapping_new_start_address(
+                                         0, 0, 0, 0, unsigned(first_register), 100, 0, 0));
+    });
     close(listener);
   }
 };

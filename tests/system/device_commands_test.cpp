@@ -119,6 +119,8 @@ TEST_F(WithAnIdealDevice, ReadShowsPointsThatWereAskedFor) {
             "gloss_2     -\n"
             "test_float  -123.45\n"
             "sample_id   black_glass_n1567\n");
+  EXPECT_EQ(run({"read", "--points", "theta_i_60", "theta_i_uncertainty_60"}).out,
+            "theta_i_2              60.04 deg\ntheta_i_uncertainty_2  0.01 deg\n");
   EXPECT_EQ(run({"read", "--points", "interval", "gloss_1", "--format", "csv"}).out,
             "id,value,unit\ninterval,1,s\ngloss_1,,GU\n");
   const json points = run_json({"read", "--points", "gloss_1", "state", "test_int32"})["points"];

@@ -15,7 +15,8 @@ inline Channel channel(const std::string& id, double angle_deg) {
   return {.geometry_id = id,
           .theta_i = degrees(angle_deg),
           .tile_assigned_gu = 90.0,
-          .tile_optics_gu = 90.0};
+          .tile_optics_gu = 90.0,
+          .setup = {StatedAngle{degrees(angle_deg + 0.04), degrees(0.02)}}};
 }
 
 /// Measures at once and without noise, but wants a calibration first.

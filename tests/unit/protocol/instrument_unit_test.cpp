@@ -42,6 +42,15 @@ TEST(InstrumentUnit, TellsWhoItIs) {
   EXPECT_THAT(objects.at(0x83), HasSubstr("ABCD"));
 }
 
+TEST(InstrumentUnit, TellsTheSetUpAsItIsStated) {
+  BenchInstrument bench(quick(), 2);
+  EXPECT_EQ(bench.number("theta_i_2"), 60.04F);
+  EXPECT_EQ(bench.number("theta_i_uncertainty_2"), 0.02F);
+  for (const char* id : {"theta_r_1", "theta_r_uncertainty_1", "source_diameter_2", "theta_i_3"}) {
+    EXPECT_TRUE(std::isnan(bench.number(id))) << id;  // not stated, or no such channel
+  }
+}
+
 TEST(InstrumentUnit, CutsTextsOfTheIdentificationToWhatAFrameCarries) {
   Device device({.manufacturer = std::string(300, 'm')}, quick(), {test::channel("60", 60)}, {});
   FaultPlan faults;
