@@ -1,14 +1,13 @@
 #include "reports/measurement_report.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "emulator/core/csv_cell.hpp"
 #include "emulator/core/quantity.hpp"
+#include "reports/measurement_words.hpp"
 
 namespace gonio {
 
@@ -20,34 +19,15 @@ std::vector<double> to_vector(const Eigen::ArrayXd& values) {
   return {values.begin(), values.end()};
 }
 
-/// A number with so many decimals; a zero has no sign.
-std::string fixed(double value, int decimals) {
-  std::string text = fmt::format("{:.{}f}", value, decimals);
-  if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) {
-    text.erase(0, 1);
-  }
-  return text;
-}
-
 /// An angle in degrees without the last bits that its way through radians leaves: 60, not
 /// 59.99999999999999.
 double degrees_for_output(Angle angle) {
   return parse_quantity(fmt::format("{:.12g}", angle.degrees()), Dimension::number).value();
 }
 
-/// The value as the standard has it reported, e.g. to the nearest unit.
-std::string reported(double gloss, const Standard& standard) {
-  if (!standard.rounding) {
-    return fixed(gloss, 1);
-  }
-  const double step = standard.rounding->nominal;
-  const int decimals = std::max(0, int(std::ceil(-std::log10(step) - 1e-9)));
-  return fixed(std::round(gloss / step) * step, decimals);
-}
-
 std::string lab_text(const std::optional<ReflectedColour>& colour) {
-  return colour ? fmt::format("{:>8} {:>7} {:>7}", fixed(colour->lab.L, 2), fixed(colour->lab.a, 2),
-                              fixed(colour->lab.b, 2))
+  return colour ? fmt::format("{:>8} {:>7} {:>7}", fixed_text(colour->lab.L, 2),
+                              fixed_text(colour->lab.a, 2), fixed_text(colour->lab.b, 2))
                 : fmt::format("{:>8} {:>7} {:>7}", "-", "-", "-");
 }
 
@@ -56,47 +36,30 @@ void append_row(std::string& text, const MeasurementHeader& header, const Measur
   const bool selected = measurement.selected_geometry == result.id;
   const std::string row = fmt::format(
       "{:<{}}  {:>8}  {:>8} {:<2}{:>14}  {:>8.1e}  {:>10}  {}", measurement.sample, width,
-      result.id, reported(result.reading.gloss, header.standard), selected ? "<" : "",
-      fixed(result.reading.gloss, 4), result.reading.quadrature_error,
-      fixed(result.reading.luminous_reflectance, 6), lab_text(result.colour));
+      result.id, reported_text(result.reading.gloss, header.standard), selected ? "<" : "",
+      fixed_text(result.reading.gloss, 4), result.reading.quadrature_error,
+      fixed_text(result.reading.luminous_reflectance, 6), lab_text(result.colour));
   text += styled && selected ? "\033[1m" + row + "\033[0m\n" : row + "\n";
+}
+
+/// Whether the geometry that a standard selects is among those of its table.
+bool shows_selected(const Measurement& measurement) {
+  return measurement.selected_geometry &&
+         measurement.find(*measurement.selected_geometry) != nullptr;
 }
 
 /// What a reader must know of the table.
 std::string footnotes(const MeasurementHeader& header,
                       const std::vector<Measurement>& measurements) {
   std::string text;
-  std::vector<std::string> informative;
-  bool any_selected = false;
-  for (const Measurement& measurement : measurements) {
-    if (const auto& selected = measurement.selected_geometry) {
-      any_selected = any_selected || measurement.find(*selected) != nullptr;
-      if (measurement.find(*selected) == nullptr) {
-        text += fmt::format("{}: the standard selects geometry {}, which was not asked for\n",
-                            measurement.sample, *selected);
-      }
-    }
-    for (const GeometryResult& result : measurement.geometries) {
-      if (result.evidence.is_informative() &&
-          std::find(informative.begin(), informative.end(), result.id) == informative.end()) {
-        informative.push_back(result.id);
-      }
-    }
-    for (const HazeResult& haze : measurement.haze) {
-      text += fmt::format(
-          "{}: {} {}\n", measurement.sample, haze.id,
-          haze.value ? fmt::format("{} {}", fixed(*haze.value, 1), header.standard.scale.unit)
-                     : "not defined for it by the standard");
-    }
+  for (const std::string& note : sample_notes(header, measurements)) {
+    text += note + "\n";
   }
-  if (any_selected) {
+  if (std::any_of(measurements.begin(), measurements.end(), shows_selected)) {
     text += "<: the geometry that the standard selects\n";
   }
-  if (!informative.empty()) {
-    text += fmt::format("informative: geometry {} rests on numbers known only from memory\n",
-                        fmt::join(informative, ", "));
-  }
-  return text;
+  const std::string informative = informative_note(measurements);
+  return informative.empty() ? text : text + informative + "\n";
 }
 
 ordered_json colour_json(const ReflectedColour& colour) {

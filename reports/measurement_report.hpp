@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "emulator/core/wavelength_grid.hpp"
+#include "emulator/procedure/footprint.hpp"
 #include "emulator/procedure/measure.hpp"
 
 namespace gonio {
@@ -35,5 +36,13 @@ struct MeasurementHeader {
 /// Spectral reflectance: a row for each wavelength, a column for each sample and geometry.
 [[nodiscard]] std::string spectra_csv(const MeasurementHeader& header,
                                       const std::vector<Measurement>& measurements);
+
+/// A page of its own: readings, spectra and what the receptors see; charts inside, no network
+/// needed.
+/// @param footprints  of each sample, those that there are, shape (n_measurements, any).
+/// @throws std::system_error  if gnuplot cannot be run.
+[[nodiscard]] std::string measurement_page(const MeasurementHeader& header,
+                                           const std::vector<Measurement>& measurements,
+                                           const std::vector<std::vector<Footprint>>& footprints);
 
 }  // namespace gonio

@@ -57,6 +57,13 @@ function(gonio_find_asio)
   target_link_libraries(asio INTERFACE Threads::Threads)
 endfunction()
 
+# Mustache is one header without a package for CMake: the target mustache.
+function(gonio_find_mustache)
+  find_path(MUSTACHE_INCLUDE_DIR kainjow/mustache.hpp REQUIRED)
+  add_library(mustache INTERFACE IMPORTED GLOBAL)
+  target_include_directories(mustache SYSTEM INTERFACE ${MUSTACHE_INCLUDE_DIR})
+endfunction()
+
 # Data, and the package that find_package(gonio) reads.
 function(gonio_install)
   install(DIRECTORY standards fixtures DESTINATION ${CMAKE_INSTALL_DATADIR}/gonio)

@@ -11,6 +11,7 @@
 #include "emulator/integration/aperture_integrator.hpp"
 #include "emulator/integration/patch_integrator.hpp"
 #include "emulator/optics/refractive_index.hpp"
+#include "emulator/procedure/footprint.hpp"
 #include "emulator/procedure/measure.hpp"
 #include "reports/measurement_report.hpp"
 
@@ -33,6 +34,7 @@ struct Options {
   std::string wavelengths = "380:780:5";
   std::string format = "text";
   std::optional<std::string> spectrum;
+  std::optional<std::string> report;
 };
 
 /// `first:last:step` in nm.
@@ -124,6 +126,36 @@ void warn_of_missed_tolerance(const std::vector<Measurement>& measurements, doub
   }
 }
 
+/// What the receptors see of each sample that has a lobe. Nothing of a tilted one, whose lobe lies
+/// elsewhere.
+std::vector<std::vector<Footprint>> footprints_of(const Instrument& instrument,
+                                                  const std::vector<Sample>& samples,
+                                                  const std::vector<Measurement>& measurements,
+                                                  Angle tilt) {
+  std::vector<std::vector<Footprint>> footprints(samples.size());
+  Progress progress(samples.size(), "footprints");
+  for (std::size_t i = 0; i < samples.size(); ++i, progress.advance()) {
+    if (samples[i].surface.lobes.empty() || tilt.radians() != 0.0) {
+      continue;
+    }
+    for (const GeometryResult& result : measurements[i].geometries) {
+      footprints[i].push_back(footprint(instrument, result.id, samples[i]));
+    }
+  }
+  return footprints;
+}
+
+/// The report as a page, as JSON and as CSV, in a folder that is made if it is not there.
+void write_report(const std::filesystem::path& folder, const MeasurementHeader& header,
+                  const std::vector<Measurement>& measurements,
+                  const std::vector<std::vector<Footprint>>& footprints) {
+  const std::string page = measurement_page(header, measurements, footprints);
+  std::filesystem::create_directories(folder);
+  write_text_file(folder / "measurement.html", page);
+  write_text_file(folder / "measurement.json", measurement_json(header, measurements));
+  write_text_file(folder / "measurement.csv", measurement_csv(header, measurements));
+}
+
 void run(const Options& options, const CommonOptions& common) {
   const Catalog catalog = common.catalog();
   const WavelengthGrid grid = parse_wavelengths(options.wavelengths);
@@ -153,6 +185,10 @@ void run(const Options& options, const CommonOptions& common) {
       .grid = grid};
   if (options.spectrum) {
     write_text_file(*options.spectrum, spectra_csv(header, measurements));
+  }
+  if (options.report) {
+    write_report(*options.report, header, measurements,
+                 footprints_of(instrument, samples, measurements, measure_options.tilt));
   }
   print(options.format == "json" ? measurement_json(header, measurements)
         : options.format == "csv"
@@ -194,6 +230,8 @@ void add_measure_command(CLI::App& program, const CommonOptions& common) {
       ->capture_default_str();
   add_format_option(*command, options->format);
   command->add_option("--spectrum", options->spectrum, "CSV file for the spectral reflectances");
+  command->add_option("--report", options->report,
+                      "Folder for measurement.html, .json and .csv; needs gnuplot");
   command->footer(
       "Example: gonio measure --sample copper_polished --sample black_glass_n1567 --geometry 60\n"
       "         gonio measure --sample my_paint.yaml --instrument triangle_gloss --format json");

@@ -50,6 +50,8 @@ class Program {
     return folder_.file(name, text);
   }
   void set(const std::string& variable, const std::string& value) {
+    std::erase_if(environment_,
+                  [&](const std::string& entry) { return entry.starts_with(variable + "="); });
     environment_.push_back(variable + "=" + value);
   }
 

@@ -12,6 +12,7 @@
 #include "emulator/core/text_file.hpp"
 #include "reports/measurement_report.hpp"
 #include "tests/unit/procedure/laboratory.hpp"
+#include "tests/unit/reports/example_report.hpp"
 
 // Reports against reports/reference/, see the README there. UPDATE_REFERENCE=1 rewrites the files.
 
@@ -102,6 +103,18 @@ TEST(ApprovedReports, CsvIsTheSameButForTheErrors) {
   for (std::size_t i = 1; i < rows.size(); ++i) {
     expect_same_row(split(rows.front(), ','), rows[i], expected[i]);
   }
+}
+
+void expect_approved(const std::string& name, const std::string& current) {
+  EXPECT_EQ(current, approved(name, current)) << name;
+}
+
+TEST(ApprovedReports, ConformanceIsTheSameInEveryTextFormat) {
+  const ConformanceReport report = test::example_report();
+  expect_approved("conformance.txt", conformance_text(report, false));
+  expect_approved("conformance.jsonl", conformance_json_lines(report));
+  expect_approved("conformance.xml", conformance_junit(report));
+  expect_approved("conformance.md", conformance_markdown(report));
 }
 
 }  // namespace

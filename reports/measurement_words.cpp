@@ -1,0 +1,65 @@
+#include "reports/measurement_words.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "emulator/procedure/evaluation.hpp"
+
+namespace gonio {
+
+std::string fixed_text(double value, int decimals) {
+  std::string text = fmt::format("{:.{}f}", value, decimals);
+  if (text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos) {
+    text.erase(0, 1);
+  }
+  return text;
+}
+
+std::string reported_text(double gloss, const Standard& standard) {
+  if (!standard.rounding) {
+    return fixed_text(gloss, 1);
+  }
+  const double step = standard.rounding->nominal;
+  const int decimals = std::max(0, int(std::ceil(-std::log10(step) - 1e-9)));
+  return fixed_text(reported_value(gloss, standard), decimals);
+}
+
+std::vector<std::string> sample_notes(const MeasurementHeader& header,
+                                      const std::vector<Measurement>& measurements) {
+  std::vector<std::string> notes;
+  for (const Measurement& measurement : measurements) {
+    const auto& selected = measurement.selected_geometry;
+    if (selected && measurement.find(*selected) == nullptr) {
+      notes.push_back(fmt::format("{}: the standard selects geometry {}, which was not asked for",
+                                  measurement.sample, *selected));
+    }
+    for (const HazeResult& haze : measurement.haze) {
+      notes.push_back(fmt::format(
+          "{}: {} {}", measurement.sample, haze.id,
+          haze.value ? fmt::format("{} {}", fixed_text(*haze.value, 1), header.standard.scale.unit)
+                     : "not defined for it by the standard"));
+    }
+  }
+  return notes;
+}
+
+std::string informative_note(const std::vector<Measurement>& measurements) {
+  std::vector<std::string> ids;
+  for (const Measurement& measurement : measurements) {
+    for (const GeometryResult& result : measurement.geometries) {
+      if (result.evidence.is_informative() &&
+          std::find(ids.begin(), ids.end(), result.id) == ids.end()) {
+        ids.push_back(result.id);
+      }
+    }
+  }
+  return ids.empty()
+             ? ""
+             : fmt::format("informative: geometry {} rests on numbers known only from memory",
+                           fmt::join(ids, ", "));
+}
+
+}  // namespace gonio

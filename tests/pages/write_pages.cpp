@@ -1,0 +1,64 @@
+// Writes the pages that a browser looks at: write_pages FOLDER.
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+
+#include "emulator/core/text_file.hpp"
+#include "reports/conformance_report.hpp"
+#include "tests/unit/reports/example_report.hpp"
+#include "tests/unit/reports/hostile_report.hpp"
+
+namespace gonio {
+namespace {
+
+/// The example many times over: its tables are longer than a sheet of paper.
+ConformanceReport long_report() {
+  constexpr int copies = 12;
+  ConformanceReport report = test::example_report();
+  const std::vector<ClauseResult> clauses = report.clauses;
+  const std::vector<CaseResult> cases = report.cases;
+  for (int copy = 1; copy < copies; ++copy) {
+    const std::string suffix = "_" + std::to_string(copy);
+    for (ClauseResult clause : clauses) {
+      clause.id += suffix;
+      clause.effects.clear();
+      for (std::size_t& index : clause.cases) {
+        index += std::size_t(copy) * cases.size();
+      }
+      report.clauses.push_back(clause);
+    }
+    for (CaseResult result : cases) {
+      result.clause += suffix;
+      result.address += suffix;
+      report.cases.push_back(result);
+    }
+  }
+  return report;
+}
+
+void write_pages(const std::filesystem::path& folder) {
+  const ConformanceReport hostile = test::hostile_report(test::hostile_text(folder / "trace"));
+  write_text_file(folder / "conformance.html", conformance_page(test::example_report()));
+  write_text_file(folder / "conformance.xml", conformance_junit(test::example_report()));
+  write_text_file(folder / "long.html", conformance_page(long_report()));
+  write_text_file(folder / "hostile.html", conformance_page(hostile));
+  write_text_file(folder / "hostile.xml", conformance_junit(hostile));
+}
+
+}  // namespace
+}  // namespace gonio
+
+int main(int count, char** arguments) {
+  if (count != 2) {
+    std::fputs("usage: write_pages FOLDER\n", stderr);
+    return 2;
+  }
+  try {
+    gonio::write_pages(arguments[1]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "write_pages: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}
