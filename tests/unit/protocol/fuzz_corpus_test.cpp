@@ -1,6 +1,6 @@
-// The fuzzers of tests/fuzz begin with the probes of fixtures/wire, one file for each.
+// The fuzzers of tests/fuzz begin with the wire cases of standards/modbus, one file for each.
 //
-// After a change of the probes: rm -r tests/fuzz/corpus, then run this test with
+// After a change of the cases: rm -r tests/fuzz/corpus, then run this test with
 // GONIO_WRITE_CORPUS=1.
 
 #include <gtest/gtest.h>
@@ -12,17 +12,22 @@
 #include <map>
 #include <string>
 
-#include "tests/unit/protocol/wire_probes.hpp"
+#include "emulator/protocol/rtu_framer.hpp"
+#include "emulator/protocol/tcp_framer.hpp"
+#include "tests/conformance/wire_cases.hpp"
 
 namespace gonio::test {
 namespace {
+
+using conformance::ProbeStep;
+using conformance::WireCase;
 
 const std::filesystem::path source = GONIO_SOURCE_DIR;
 
 /// File contents by path within the corpus.
 using Corpus = std::map<std::string, Bytes>;
 
-/// Each content once: many probes differ in their replies only.
+/// Each content once: many cases differ in their replies only.
 void add(Corpus& corpus, const std::string& folder, const std::string& id, const Bytes& bytes) {
   std::string name = folder + "/" + id;
   for (int i = 2; corpus.contains(name); ++i) {
@@ -49,55 +54,48 @@ Bytes as_chunks(std::span<const std::uint8_t> burst) {
   return chunks;
 }
 
-void add_tcp(const WireProbe& probe, bool is_for_framer, Corpus& corpus) {
+void add_tcp(const WireCase& sent, Corpus& corpus) {
   Bytes stream;
-  for (const ProbeStep& step : probe.steps) {
+  for (const ProbeStep& step : sent.exchange.steps) {
     stream.insert(stream.end(), step.sent.begin(), step.sent.end());
   }
-  if (is_for_framer) {
-    add(corpus, "tcp_framer", probe.id, stream);
+  if (!sent.exchange.is_for_serial) {
+    add(corpus, "tcp_framer", sent.id, stream);
   }
   modbus::TcpFramer framer;
   std::copy(stream.begin(), stream.end(), framer.space().begin());
   framer.received(stream.size());
   while (const auto frame = framer.next()) {
-    add(corpus, "pdu", probe.id, Bytes(frame->pdu.begin(), frame->pdu.end()));
+    add(corpus, "pdu", sent.id, Bytes(frame->pdu.begin(), frame->pdu.end()));
   }
 }
 
-void add_serial(const WireProbe& probe, bool is_for_framer, Corpus& corpus) {
+void add_serial(const WireCase& sent, Corpus& corpus) {
   Bytes chunks;
-  for (const ProbeStep& step : probe.steps) {
+  for (const ProbeStep& step : sent.exchange.steps) {
     const Bytes more = as_chunks(step.sent);
     chunks.insert(chunks.end(), more.begin(), more.end());
     modbus::RtuFramer framer{std::chrono::microseconds(1)};
     framer.feed(step.sent, {});
     const auto frame = framer.end_of_frame(modbus::RtuFramer::Time(std::chrono::seconds(1)));
     if (frame) {
-      add(corpus, "pdu", probe.id, Bytes(frame->pdu.begin(), frame->pdu.end()));
+      add(corpus, "pdu", sent.id, Bytes(frame->pdu.begin(), frame->pdu.end()));
     }
   }
-  if (is_for_framer) {
-    add(corpus, "rtu_framer", probe.id, chunks);
+  if (!sent.exchange.is_for_tcp) {
+    add(corpus, "rtu_framer", sent.id, chunks);
   }
 }
 
-/// The framers take the probes of their own line, the PDU function those of both.
-Corpus corpus_of_probes() {
-  const WireProbeReader reader(source / "fixtures/wire");
-  const std::vector<WireProbe> tcp = reader.read(modbus::Line::tcp);
-  const std::vector<WireProbe> serial = reader.read(modbus::Line::serial);
-  const auto has = [](const std::vector<WireProbe>& probes, const WireProbe& wanted) {
-    return std::any_of(probes.begin(), probes.end(), [&](const WireProbe& probe) {
-      return probe.id == wanted.id && probe.note == wanted.note && probe.source == wanted.source;
-    });
-  };
+/// The framers take the cases of their own line, the PDU function those of both.
+Corpus corpus_of_cases() {
+  const conformance::Profile profile = conformance::shipped_profile(source, "plain");
   Corpus corpus;
-  for (const WireProbe& probe : tcp) {
-    add_tcp(probe, !has(serial, probe), corpus);
+  for (const WireCase& sent : conformance::wire_cases(source, modbus::Line::tcp, profile)) {
+    add_tcp(sent, corpus);
   }
-  for (const WireProbe& probe : serial) {
-    add_serial(probe, !has(tcp, probe), corpus);
+  for (const WireCase& sent : conformance::wire_cases(source, modbus::Line::serial, profile)) {
+    add_serial(sent, corpus);
   }
   return corpus;
 }
@@ -107,10 +105,10 @@ Bytes read_bytes(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-TEST(FuzzCorpus, HoldsEveryProbe) {
+TEST(FuzzCorpus, HoldsEveryWireCase) {
   const std::filesystem::path folder = source / "tests/fuzz/corpus";
   const bool writes = std::getenv("GONIO_WRITE_CORPUS") != nullptr;
-  for (const auto& [name, bytes] : corpus_of_probes()) {
+  for (const auto& [name, bytes] : corpus_of_cases()) {
     if (writes) {
       std::filesystem::create_directories((folder / name).parent_path());
       std::ofstream(folder / name, std::ios::binary)
