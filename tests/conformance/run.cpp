@@ -1,5 +1,6 @@
 #include "tests/conformance/run.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -220,7 +221,10 @@ ConformanceReport ConformanceRun::report(const std::string& prefix) const {
     const std::size_t before = report.cases.size();
     add_cases_of(c, report, result);
     const std::string address = suite_.set.id + "/" + result.id;
-    if (report.cases.size() == before && !is_selected(address, prefix)) {
+    // What was not asked for is left out, and what a filter has left out.
+    const bool has_cases = std::any_of(suite_.cases.begin(), suite_.cases.end(),
+                                       [&](const SuiteCase& entry) { return entry.clause == c; });
+    if (report.cases.size() == before && (has_cases || !is_selected(address, prefix))) {
       continue;
     }
     // A suite that does not judge as it should is an error whatever rests on it.

@@ -220,6 +220,25 @@ TEST(Conformance, UnderstandsGoogleTestsOptions) {
   EXPECT_THAT(xml, HasSubstr(R"(<property name="verdict" value="pass")"));
 }
 
+TEST(Conformance, LeavesOutWhatAFilterLeavesOut) {
+  const Outcome outcome = conformance().run(
+      {"iso_2813/2014/geometry", "--format", "json", "--gtest_filter=*incidence_20*"});
+  EXPECT_EQ(outcome.status, conforms);
+  EXPECT_EQ(verdicts(outcome),
+            (std::map<std::string, std::string>{{"geometry/incidence_20", "pass"}}));
+}
+
+TEST(Conformance, TellsOfItselfBeforeGoogleTest) {
+  const Outcome help = conformance().run({"--help"});
+  EXPECT_EQ(help.status, conforms);
+  EXPECT_THAT(help.out, StartsWith("Judges a glossmeter"));
+  EXPECT_THAT(help.out, HasSubstr("Example: gonio-conformance "));
+  EXPECT_THAT(help.err, IsEmpty());
+  const Outcome wrong = conformance().run({"iso_2813/2014", "--gtest_filtre=x"});
+  EXPECT_EQ(wrong.status, bad_input);
+  EXPECT_THAT(wrong.err, HasSubstr("--gtest_filtre=x"));
+}
+
 TEST(Conformance, WritesTheSameReportsAgain) {
   Program program = conformance();
   program.set("SOURCE_DATE_EPOCH", "1700000000");
