@@ -74,20 +74,6 @@ Expectation::ByGeometry read_by_geometry(const YamlNode& node, const ClauseSet& 
   return values;
 }
 
-PolishedArtefact read_fresnel(const YamlNode& node) {
-  return node.read_map([](YamlMap& map) {
-    PolishedArtefact artefact;
-    if (const auto reflectance = map.optional("reflectance")) {
-      artefact.reflectance = reflectance->number(Range::closed(0.0, 1.0));
-      return artefact;
-    }
-    const double n = map.required("n").number(Range::positive());
-    const auto k = map.optional("k");
-    artefact.index = {n, k ? k->number(Range::not_negative()) : 0.0};
-    return artefact;
-  });
-}
-
 /// Whether a node holds a quantity; else it is text.
 bool is_quantity(const YamlNode& node) {
   try {
@@ -107,8 +93,8 @@ void read_expected(const YamlNode& node, const ClauseSet& set, Expectation& expe
     expectation.value = std::move(texts);
   } else if (node.is_map()) {
     if (YamlMap(node).has("fresnel")) {
-      expectation.value =
-          node.read_map([](YamlMap& map) { return read_fresnel(map.required("fresnel")); });
+      expectation.value = node.read_map(
+          [](YamlMap& map) { return read_polished_artefact(map.required("fresnel")); });
     } else {
       expectation.value = read_by_geometry(node, set);
     }

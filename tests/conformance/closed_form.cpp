@@ -18,6 +18,20 @@ double reflectance(std::complex<double> index, double theta) {
 
 }  // namespace
 
+PolishedArtefact read_polished_artefact(const YamlNode& node) {
+  return node.read_map([](YamlMap& map) {
+    PolishedArtefact artefact;
+    if (const auto reflectance = map.optional("reflectance")) {
+      artefact.reflectance = reflectance->number(Range::closed(0.0, 1.0));
+      return artefact;
+    }
+    const double n = map.required("n").number(Range::positive());
+    const auto k = map.optional("k");
+    artefact.index = {n, k ? k->number(Range::not_negative()) : 0.0};
+    return artefact;
+  });
+}
+
 double closed_form_gloss(const PolishedArtefact& artefact, Angle theta_i, const Scale& scale) {
   const double theta = theta_i.radians();
   const double found =

@@ -3,6 +3,7 @@
 #include <complex>
 #include <optional>
 
+#include "emulator/core/yaml_map.hpp"
 #include "emulator/standard/standard.hpp"
 
 namespace gonio::conformance {
@@ -12,6 +13,9 @@ struct PolishedArtefact {
   std::complex<double> index{1.0, 0.0};    ///< n + ik
   std::optional<double> reflectance = {};  ///< of an ideal mirror, instead of the index
 };
+
+/// Reads `{n: 1.5}`, `{n: 0.6, k: 2.6}` or `{reflectance: 1}`.
+[[nodiscard]] PolishedArtefact read_polished_artefact(const YamlNode& node);
 
 /// What it reads on the scale of a standard, on the axis of the geometry. Computed here, so that
 /// the suite does not judge the emulator by the emulator.

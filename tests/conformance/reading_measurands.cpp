@@ -109,18 +109,6 @@ struct LinearityArtefact {
   PolishedArtefact made_of;
 };
 
-PolishedArtefact read_made_of(const YamlNode& node) {
-  return node.read_map([](YamlMap& map) {
-    PolishedArtefact artefact;
-    if (const auto reflectance = map.optional("reflectance")) {
-      artefact.reflectance = reflectance->number(Range::closed(0.0, 1.0));
-    } else {
-      artefact.index = map.required("n").number(Range::positive());
-    }
-    return artefact;
-  });
-}
-
 /// The angle at which the device states that it works: an angle that is off is no error of
 /// linearity.
 Angle working_angle(const MeasurementContext& c, const std::string& geometry) {
@@ -156,7 +144,7 @@ Measurement read_linearity(YamlMap& when, MeasurandContext& context) {
   for (const YamlNode& node : when.required("artefacts").list()) {
     artefacts.push_back(node.read_map([&](YamlMap& map) {
       LinearityArtefact artefact{.sample = read_sample(map, context), .made_of = {}};
-      artefact.made_of = read_made_of(map.required("fresnel"));
+      artefact.made_of = read_polished_artefact(map.required("fresnel"));
       return artefact;
     }));
   }
