@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/unit/instrument/instrument_file.hpp"
 #include "tests/unit/message_of.hpp"
 #include "tests/unit/standard/shipped_standards.hpp"
 #include "tests/unit/temporary_folder.hpp"
@@ -17,7 +18,10 @@
 namespace gonio {
 namespace {
 
+using test::error_of;
 using test::ids_of_shipped;
+using test::instrument_text;
+using test::load_text;
 using test::message_of;
 using test::shipped;
 using test::shipped_standard;
@@ -25,29 +29,6 @@ using test::TemporaryFolder;
 using testing::StartsWith;
 
 constexpr double rounding = 1e-12;
-
-std::string instrument_text(const std::string& as_built,
-                            const std::string& built_to = "iso_2813/2014") {
-  return "schema: gonio/instrument/1\n"  // 1
-         "id: mine\n"                    // 2
-         "title: Mine\n"                 // 3
-         "built_to: " +
-         built_to + "\n" +  // 4
-         as_built;          // 5 ...
-}
-
-Instrument load_text(const std::string& text) {
-  const TemporaryFolder folder;
-  return load_instrument(folder.file("mine.yaml", text), shipped());
-}
-
-/// The message for a file with this text, without the file's name.
-std::string error_of(const std::string& text) {
-  const TemporaryFolder folder;
-  const auto file = folder.file("mine.yaml", text);
-  const std::string message = message_of([&] { (void)load_instrument(file, shipped()); });
-  return message.starts_with(file.string()) ? message.substr(file.string().size()) : message;
-}
 
 double theta_deg(const Aperture& aperture) {
   return std::acos(aperture.frame().axis.z()) * 180.0 / std::numbers::pi;

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "tests/unit/instrument/instrument_file.hpp"
 #include "tests/unit/message_of.hpp"
 #include "tests/unit/standard/shipped_standards.hpp"
 #include "tests/unit/temporary_folder.hpp"
@@ -14,29 +15,14 @@
 namespace gonio {
 namespace {
 
+using test::error_of;
+using test::instrument_text;
+using test::load_text;
 using test::message_of;
 using test::shipped;
 using test::shipped_standard;
 using test::TemporaryFolder;
 using enum SetupQuantity;
-
-std::string instrument_text(const std::string& as_built,
-                            const std::string& built_to = "iso_2813/2014") {
-  return "schema: gonio/instrument/1\nid: mine\ntitle: Mine\nbuilt_to: " + built_to + "\n" +
-         as_built;  // begins on line 5
-}
-
-Instrument load_text(const std::string& text) {
-  const TemporaryFolder folder;
-  return load_instrument(folder.file("mine.yaml", text), shipped());
-}
-
-std::string error_of(const std::string& text) {
-  const TemporaryFolder folder;
-  const auto file = folder.file("mine.yaml", text);
-  const std::string message = message_of([&] { (void)load_instrument(file, shipped()); });
-  return message.starts_with(file.string()) ? message.substr(file.string().size()) : message;
-}
 
 std::optional<StatedAngle> stated(double value_deg, double uncertainty_deg) {
   return StatedAngle{.value = degrees(value_deg), .expanded_uncertainty = degrees(uncertainty_deg)};
