@@ -9,22 +9,12 @@
 #include "emulator/core/input_error.hpp"
 #include "emulator/procedure/footprint.hpp"
 #include "emulator/procedure/setup_effects.hpp"
-#include "emulator/standard/standard.hpp"
+#include "emulator/standard/clause.hpp"
+#include "emulator/standard/decision.hpp"
 
 // What a run of the conformance suite has found, and how it is written down.
 
 namespace gonio {
-
-/// What a case or a clause comes to.
-enum class ConformanceVerdict {
-  pass,
-  fail,
-  inconclusive,    ///< the expanded uncertainty straddles the limit
-  not_applicable,  ///< the clause does not concern this device, or its number is not known
-  skipped,         ///< could not be tried: the device does not offer it, or nobody was there
-  error            ///< the device no longer answered, or the suite itself is at fault
-};
-[[nodiscard]] const char* verdict_name(ConformanceVerdict verdict);
 
 /// One number that was judged.
 struct Observation {
@@ -67,14 +57,6 @@ struct CaseResult {
   double duration_s = 0.0;
 
   [[nodiscard]] bool is_as_expected() const { return verdict == expected; }
-};
-
-/// A limit of a clause, as a reader sees it.
-struct LimitRow {
-  std::string quantity = {}, geometry = {}, unit = {};
-  std::optional<double> nominal = {}, tolerance = {}, low = {}, high = {};
-  Evidence evidence = {};
-  SourceMark mark = {};
 };
 
 struct ClauseResult {

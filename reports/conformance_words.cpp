@@ -38,24 +38,6 @@ std::string listed(const std::vector<std::string>& ids) {
 
 }  // namespace
 
-const char* verdict_name(ConformanceVerdict verdict) {
-  switch (verdict) {
-    case ConformanceVerdict::pass:
-      return "pass";
-    case ConformanceVerdict::fail:
-      return "fail";
-    case ConformanceVerdict::inconclusive:
-      return "inconclusive";
-    case ConformanceVerdict::not_applicable:
-      return "not_applicable";
-    case ConformanceVerdict::skipped:
-      return "skipped";
-    case ConformanceVerdict::error:
-      break;
-  }
-  return "error";
-}
-
 const char* role_name(CaseRole role) {
   return role == CaseRole::device ? "device" : role == CaseRole::control ? "control" : "evaluation";
 }

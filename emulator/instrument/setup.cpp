@@ -91,25 +91,6 @@ std::optional<Angle> nominal_of(const GeometryLimits& limits, SetupQuantity quan
 
 }  // namespace
 
-std::optional<SetupQuantity> setup_quantity(const std::string& name) {
-  const auto found = std::find(setup_quantity_names.begin(), setup_quantity_names.end(), name);
-  if (found == setup_quantity_names.end()) {
-    return std::nullopt;
-  }
-  return SetupQuantity(found - setup_quantity_names.begin());
-}
-
-const Stated<Angle>* limit_of(const GeometryLimits& limits, SetupQuantity quantity) {
-  if (quantity == SetupQuantity::theta_i) {
-    return &limits.theta_i;
-  }
-  if (quantity == SetupQuantity::theta_r) {
-    return limits.theta_r ? &*limits.theta_r : nullptr;
-  }
-  const std::optional<ApertureSize>& size = size_of(opening_of(limits, quantity), quantity);
-  return size && size->value ? &*size->value : nullptr;
-}
-
 std::optional<StatedAngle> as_built(const Instrument& instrument, const std::string& geometry_id,
                                     SetupQuantity quantity) {
   if (!has_quantity(instrument, geometry_id, quantity)) {

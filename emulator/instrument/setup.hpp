@@ -8,27 +8,9 @@
 
 #include "emulator/core/angle.hpp"
 #include "emulator/instrument/instrument.hpp"
+#include "emulator/standard/setup_quantity.hpp"
 
 namespace gonio {
-
-/// The quantities of one geometry that a standard limits.
-enum class SetupQuantity {
-  theta_i,
-  theta_r,
-  source_in_plane,
-  source_perpendicular,
-  source_diameter,
-  receptor_in_plane,
-  receptor_perpendicular,
-  receptor_diameter
-};
-constexpr std::size_t setup_quantity_count = 8;
-
-/// As input files and people call them, in the order of SetupQuantity.
-inline constexpr std::array<const char*, setup_quantity_count> setup_quantity_names{
-    "theta_i",         "theta_r",           "source_in_plane",        "source_perpendicular",
-    "source_diameter", "receptor_in_plane", "receptor_perpendicular", "receptor_diameter"};
-[[nodiscard]] std::optional<SetupQuantity> setup_quantity(const std::string& name);
 
 /// A quantity as it was found, and how well.
 struct StatedAngle {
@@ -40,9 +22,6 @@ struct StatedAngle {
 
 /// All of one geometry, in the order of SetupQuantity; nothing where it is not stated.
 using StatedSetup = std::array<std::optional<StatedAngle>, setup_quantity_count>;
-
-/// What the standard says of it; null where it says nothing or the number is unknown.
-[[nodiscard]] const Stated<Angle>* limit_of(const GeometryLimits& limits, SetupQuantity quantity);
 
 /// As built, or nominal where the file does not say; nothing if the instrument has no such geometry
 /// or the geometry no such quantity (a circle has no sides), or if it is unknown.

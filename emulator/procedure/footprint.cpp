@@ -5,9 +5,9 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "emulator/core/parallel_for.hpp"
 #include "emulator/integration/aperture_integrator.hpp"
 #include "emulator/integration/region.hpp"
-#include "emulator/procedure/parallel_for.hpp"
 
 namespace gonio {
 

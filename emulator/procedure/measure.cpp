@@ -8,7 +8,7 @@
 #include <mutex>
 #include <stdexcept>
 
-#include "emulator/procedure/parallel_for.hpp"
+#include "emulator/core/parallel_for.hpp"
 
 namespace gonio {
 

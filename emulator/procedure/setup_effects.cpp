@@ -6,9 +6,9 @@
 #include <memory>
 #include <utility>
 
+#include "emulator/core/parallel_for.hpp"
 #include "emulator/instrument/glossmeter.hpp"
 #include "emulator/integration/aperture_integrator.hpp"
-#include "emulator/procedure/parallel_for.hpp"
 #include "emulator/surface/models.hpp"
 
 namespace gonio {

@@ -8,10 +8,11 @@
 #include <variant>
 #include <vector>
 
+#include "emulator/core/unit_value.hpp"
+#include "emulator/standard/clause.hpp"
+#include "reports/conformance_report.hpp"
 #include "tests/conformance/bench.hpp"
-#include "tests/conformance/clause.hpp"
 #include "tests/conformance/closed_form.hpp"
-#include "tests/conformance/unit_value.hpp"
 
 namespace gonio::conformance {
 

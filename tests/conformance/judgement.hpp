@@ -2,8 +2,8 @@
 
 #include <optional>
 
+#include "emulator/standard/decision.hpp"
 #include "tests/conformance/case.hpp"
-#include "tests/conformance/decision.hpp"
 
 namespace gonio::conformance {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/conformance/decision.hpp"
+#include "emulator/standard/decision.hpp"
 #include "tests/conformance/suite.hpp"
 
 namespace gonio::conformance {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "emulator/standard/clause.hpp"
 #include "tests/conformance/case.hpp"
-#include "tests/conformance/clause.hpp"
 
 namespace gonio::conformance {
 

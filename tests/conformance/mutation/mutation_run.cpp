@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <map>
 
+#include "emulator/core/parallel_for.hpp"
 #include "emulator/instrument/glossmeter.hpp"
 #include "emulator/instrument/overlay.hpp"
-#include "emulator/procedure/parallel_for.hpp"
 #include "tests/conformance/in_process_port.hpp"
 #include "tests/conformance/run.hpp"
 

@@ -8,9 +8,16 @@
 
 #include "emulator/core/catalog.hpp"
 #include "emulator/standard/standard.hpp"
-#include "reports/conformance_report.hpp"
 
-namespace gonio::conformance {
+namespace gonio {
+
+/// A limit of a clause, as a reader sees it.
+struct LimitRow {
+  std::string quantity = {}, geometry = {}, unit = {};
+  std::optional<double> nominal = {}, tolerance = {}, low = {}, high = {};
+  Evidence evidence = {};
+  SourceMark mark = {};
+};
 
 /// A demand of a standard, for one geometry if it is made of each.
 struct Clause {
@@ -47,4 +54,4 @@ struct ClauseSet {
 /// What the keys of evidence stand for, from standards/sources.yaml.
 [[nodiscard]] std::map<std::string, std::string> load_sources(const std::filesystem::path& file);
 
-}  // namespace gonio::conformance
+}  // namespace gonio

@@ -1,10 +1,10 @@
-#include "tests/conformance/unit_value.hpp"
+#include "emulator/core/unit_value.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
 
-namespace gonio::conformance {
+namespace gonio {
 
 UnitValue read_unit_value(const YamlNode& node) {
   struct Kind {
@@ -33,4 +33,4 @@ double stated_degrees(Angle angle) {
   return *parse_quantity(fmt::format("{:.12g}", angle.degrees()), Dimension::number);
 }
 
-}  // namespace gonio::conformance
+}  // namespace gonio

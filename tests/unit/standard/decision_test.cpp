@@ -1,10 +1,10 @@
-#include "tests/conformance/decision.hpp"
+#include "emulator/standard/decision.hpp"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-namespace gonio::conformance {
+namespace gonio {
 namespace {
 
 using enum ConformanceVerdict;
@@ -62,5 +62,18 @@ TEST(Worse, PutsWhatDecidesFirst) {
   EXPECT_EQ(worse(fail, inconclusive), fail);
 }
 
+TEST(ConformanceProbability, IsThatOfANormalValue) {
+  EXPECT_DOUBLE_EQ(conformance_probability(60.1, 0.05, {.high = 60.1}), 0.5);
+  // Tables of the normal distribution: 95.45 % within two standard deviations.
+  EXPECT_NEAR(conformance_probability(60.0, 0.05, around_60), 0.9544997, 1e-7);
+  EXPECT_NEAR(conformance_probability(60.15, 0.05, around_60), 0.1586553 - 2.87e-7, 1e-7);
+}
+
+TEST(ConformanceProbability, OfAValueWithoutUncertaintyIsAllOrNothing) {
+  EXPECT_EQ(conformance_probability(60.1, 0.0, around_60), 1.0);
+  EXPECT_EQ(conformance_probability(60.11, 0.0, around_60), 0.0);
+  EXPECT_EQ(conformance_probability(60.1, 0.0, {}), 1.0);
+}
+
 }  // namespace
-}  // namespace gonio::conformance
+}  // namespace gonio

@@ -5,7 +5,7 @@
 #include "emulator/core/angle.hpp"
 #include "emulator/core/yaml_map.hpp"
 
-namespace gonio::conformance {
+namespace gonio {
 
 /// A number with its unit, as a case or a limit states it.
 struct UnitValue {
@@ -19,4 +19,4 @@ struct UnitValue {
 /// An angle in degrees as it was stated: without the last bits that its way through radians leaves.
 [[nodiscard]] double stated_degrees(Angle angle);
 
-}  // namespace gonio::conformance
+}  // namespace gonio

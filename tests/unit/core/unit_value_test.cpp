@@ -1,10 +1,10 @@
-#include "tests/conformance/unit_value.hpp"
+#include "emulator/core/unit_value.hpp"
 
 #include <gtest/gtest.h>
 
 #include "tests/unit/message_of.hpp"
 
-namespace gonio::conformance {
+namespace gonio {
 namespace {
 
 UnitValue read(const std::string& text) {
@@ -31,4 +31,4 @@ TEST(UnitValue, RefusesWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace gonio::conformance
+}  // namespace gonio

@@ -1,15 +1,15 @@
-#include "tests/conformance/clause.hpp"
+#include "emulator/standard/clause.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 
+#include "emulator/core/unit_value.hpp"
 #include "emulator/core/yaml_map.hpp"
-#include "emulator/instrument/setup.hpp"
-#include "tests/conformance/unit_value.hpp"
+#include "emulator/standard/setup_quantity.hpp"
 
-namespace gonio::conformance {
+namespace gonio {
 
 namespace fs = std::filesystem;
 
@@ -109,31 +109,6 @@ StatedClause read_clause(const YamlNode& node) {
     read_coverage(map, clause);
     return stated;
   });
-}
-
-/// What the standard says of the size of an aperture, `unknown` included; null if it has none.
-const ApertureSize* aperture_size(const GeometryLimits& geometry, SetupQuantity quantity) {
-  const auto size = [](const std::optional<ApertureSize>& stated) {
-    return stated ? &*stated : nullptr;
-  };
-  switch (quantity) {
-    case SetupQuantity::theta_i:
-    case SetupQuantity::theta_r:
-      return nullptr;
-    case SetupQuantity::source_in_plane:
-      return size(geometry.source.in_plane);
-    case SetupQuantity::source_perpendicular:
-      return size(geometry.source.perpendicular);
-    case SetupQuantity::source_diameter:
-      return size(geometry.source.diameter);
-    case SetupQuantity::receptor_in_plane:
-      return size(geometry.receptor.in_plane);
-    case SetupQuantity::receptor_perpendicular:
-      return size(geometry.receptor.perpendicular);
-    case SetupQuantity::receptor_diameter:
-      return size(geometry.receptor.diameter);
-  }
-  return nullptr;
 }
 
 /// Fills in what the standard says of a set-up quantity. @return  whether it has it at all.
@@ -291,4 +266,4 @@ std::map<std::string, std::string> load_sources(const fs::path& file) {
   });
 }
 
-}  // namespace gonio::conformance
+}  // namespace gonio

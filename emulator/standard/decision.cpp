@@ -1,10 +1,11 @@
-#include "tests/conformance/decision.hpp"
+#include "emulator/standard/decision.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
-namespace gonio::conformance {
+namespace gonio {
 
 namespace {
 
@@ -14,6 +15,24 @@ using enum ConformanceVerdict;
 double rounding_of(double value) { return 1e-9 * std::max(1.0, std::abs(value)); }
 
 }  // namespace
+
+const char* verdict_name(ConformanceVerdict verdict) {
+  switch (verdict) {
+    case ConformanceVerdict::pass:
+      return "pass";
+    case ConformanceVerdict::fail:
+      return "fail";
+    case ConformanceVerdict::inconclusive:
+      return "inconclusive";
+    case ConformanceVerdict::not_applicable:
+      return "not_applicable";
+    case ConformanceVerdict::skipped:
+      return "skipped";
+    case ConformanceVerdict::error:
+      break;
+  }
+  return "error";
+}
 
 std::string decision_rule_words(DecisionRule rule) {
   return rule == DecisionRule::guarded
@@ -44,10 +63,28 @@ ConformanceVerdict decide(double value, double expanded_uncertainty, const Inter
   return inside + guard + slack < 0.0 ? fail : inconclusive;
 }
 
+double conformance_probability(double value, double u, const Interval& limits) {
+  const auto below = [&](double limit) {
+    if (u == 0.0) {
+      return value <= limit + rounding_of(value) ? 1.0 : 0.0;
+    }
+    return 0.5 * std::erfc((value - limit) / (u * std::numbers::sqrt2));
+  };
+  const auto above = [&](double limit) {
+    if (u == 0.0) {
+      return value >= limit - rounding_of(value) ? 1.0 : 0.0;
+    }
+    return 0.5 * std::erfc((limit - value) / (u * std::numbers::sqrt2));
+  };
+  const double over = limits.high ? 1.0 - below(*limits.high) : 0.0;
+  const double under = limits.low ? 1.0 - above(*limits.low) : 0.0;
+  return std::clamp(1.0 - over - under, 0.0, 1.0);
+}
+
 ConformanceVerdict worse(ConformanceVerdict a, ConformanceVerdict b) {
   constexpr std::array order{error, fail, inconclusive, pass, skipped, not_applicable};
   return std::find(order.begin(), order.end(), a) < std::find(order.begin(), order.end(), b) ? a
                                                                                              : b;
 }
 
-}  // namespace gonio::conformance
+}  // namespace gonio

@@ -1,17 +1,17 @@
-#include "tests/conformance/clause.hpp"
+#include "emulator/standard/clause.hpp"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "tests/unit/conformance/suite_files.hpp"
 #include "tests/unit/message_of.hpp"
+#include "tests/unit/standard/clause_files.hpp"
 
-namespace gonio::conformance {
+namespace gonio {
 namespace {
 
+using test::ClauseFiles;
 using test::message_of;
-using test::SuiteFiles;
 
 const std::string incidence =
     "  - id: geometry/incidence\n"
@@ -22,7 +22,7 @@ const std::string incidence =
     "    coverage: cases\n";
 
 TEST(Clauses, OfEachGeometryTakeTheirNumbersFromTheStandard) {
-  const SuiteFiles files(incidence);
+  const ClauseFiles files(incidence);
   const ClauseSet set = files.clauses();
   ASSERT_EQ(set.clauses.size(), 2U);
   EXPECT_EQ(set.clauses[0].id, "geometry/incidence_20");
@@ -38,24 +38,24 @@ TEST(Clauses, OfEachGeometryTakeTheirNumbersFromTheStandard) {
 }
 
 TEST(Clauses, CanBeOfSomeGeometries) {
-  const SuiteFiles files(
+  const ClauseFiles files(
       test::replaced(incidence, "    level", "    geometries: [\"60\"]\n    level"));
   ASSERT_EQ(files.clauses().clauses.size(), 1U);
   EXPECT_EQ(files.clauses().clauses[0].id, "geometry/incidence_60");
 }
 
 TEST(Clauses, AreAsSureAsTheirWeakestNumber) {
-  const SuiteFiles files(test::replaced(incidence, "theta_i}", "theta_i}, {quantity: theta_r}"));
+  const ClauseFiles files(test::replaced(incidence, "theta_i}", "theta_i}, {quantity: theta_r}"));
   EXPECT_EQ(files.clauses().clauses[0].evidence.level, "memory");
 }
 
 TEST(Clauses, AreLeftOutWhereTheGeometryHasNoSuchQuantity) {
-  const SuiteFiles files(test::replaced(incidence, "theta_i", "receptor_diameter"));
+  const ClauseFiles files(test::replaced(incidence, "theta_i", "receptor_diameter"));
   EXPECT_TRUE(files.clauses().clauses.empty());
 }
 
 TEST(Clauses, OfAnUnknownNumberAreNotApplicable) {
-  const SuiteFiles files(test::replaced(incidence, "theta_i", "source_in_plane"));
+  const ClauseFiles files(test::replaced(incidence, "theta_i", "source_in_plane"));
   const ClauseSet set = files.clauses();
   ASSERT_EQ(set.clauses.size(), 2U);
   EXPECT_EQ(set.clauses[0].not_applicable, "");
@@ -63,7 +63,7 @@ TEST(Clauses, OfAnUnknownNumberAreNotApplicable) {
 }
 
 TEST(Clauses, StateLimitsOfTheirOwn) {
-  const SuiteFiles files(
+  const ClauseFiles files(
       "  - id: photometry/linearity\n"
       "    level: shall\n"
       "    requirement: Linear.\n"
@@ -79,7 +79,7 @@ TEST(Clauses, StateLimitsOfTheirOwn) {
 
 /// The message without the folder.
 std::string error_with(const std::string& clause) {
-  const SuiteFiles files(clause);
+  const ClauseFiles files(clause);
   std::string message = message_of([&] { (void)files.clauses(); });
   const auto at = message.find("clauses.yaml");
   return at == std::string::npos ? message : message.substr(at);
@@ -107,4 +107,4 @@ TEST(ClauseErrors, TellPlaceAndKey) {
 }
 
 }  // namespace
-}  // namespace gonio::conformance
+}  // namespace gonio

@@ -1,4 +1,4 @@
-#include "emulator/procedure/parallel_for.hpp"
+#include "emulator/core/parallel_for.hpp"
 
 #include <tbb/parallel_for.h>
 
