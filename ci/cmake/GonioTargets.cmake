@@ -64,6 +64,13 @@ function(gonio_find_mustache)
   target_include_directories(mustache SYSTEM INTERFACE ${MUSTACHE_INCLUDE_DIR})
 endfunction()
 
+# Random123 is headers without a package for CMake: the target random123.
+function(gonio_find_random123)
+  find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
+  add_library(random123 INTERFACE IMPORTED GLOBAL)
+  target_include_directories(random123 SYSTEM INTERFACE ${RANDOM123_INCLUDE_DIR})
+endfunction()
+
 # Data, and the package that find_package(gonio) reads.
 function(gonio_install)
   install(DIRECTORY standards fixtures DESTINATION ${CMAKE_INSTALL_DATADIR}/gonio)

@@ -11,6 +11,7 @@
 #include "emulator/core/table.hpp"
 #include "emulator/core/yaml_map.hpp"
 #include "emulator/instrument/behaviour.hpp"
+#include "emulator/instrument/uncertainty_statement.hpp"
 #include "emulator/integration/aperture.hpp"
 #include "emulator/standard/standard.hpp"
 
@@ -23,10 +24,11 @@ struct AngleAsBuilt {
   std::optional<Angle> expanded_uncertainty = {};
 };
 
-/// How well what was found is known where that is not stated one by one: k = 2.
+/// How well what was found is known where that is not stated one by one: k = 2. Nothing where that
+/// is not stated either.
 struct SetupUncertainty {
-  Angle angles = {};     ///< of theta_i and theta_r
-  Angle apertures = {};  ///< of the sizes of source and receptor
+  std::optional<Angle> angles = {};     ///< of theta_i and theta_r
+  std::optional<Angle> apertures = {};  ///< of the sizes of source and receptor
 
   bool operator==(const SetupUncertainty&) const = default;
 };
@@ -58,6 +60,7 @@ struct Instrument {
   /// By id: how much source and receptor together favour light polarised perpendicular to the plane
   /// of measurement, the P of `polarised`; 0 for a geometry that is not named.
   std::map<std::string, double> polarization = {};
+  std::optional<UncertaintyStatement> uncertainty = {};
   SpectralTable source;  ///< spectral power distribution
   SpectralTable responsivity;
   Identity identity = {};

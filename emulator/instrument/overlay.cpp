@@ -122,6 +122,11 @@ void read_optics(YamlMap& map, Instrument& instrument) {
     instrument.setup_uncertainty =
         read_setup_uncertainty(*uncertainty, instrument.setup_uncertainty);
   }
+  if (const auto uncertainty = map.optional("uncertainty")) {
+    instrument.uncertainty =
+        read_uncertainty(*uncertainty, instrument.geometries,
+                         std::move(instrument.uncertainty).value_or(UncertaintyStatement()));
+  }
   if (const auto polarization = map.optional("polarization")) {
     read_polarization(*polarization, instrument);
   }

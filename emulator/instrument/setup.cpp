@@ -1,6 +1,7 @@
 #include "emulator/instrument/setup.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -98,13 +99,23 @@ std::optional<StatedAngle> as_built(const Instrument& instrument, const std::str
   }
   const GeometryAsBuilt built = built_of(instrument, geometry_id);
   if (const auto& found = stated_in(built, quantity)) {
-    const SetupUncertainty& usual = instrument.setup_uncertainty;
     return StatedAngle{.value = found->value,
-                       .expanded_uncertainty = found->expanded_uncertainty.value_or(
-                           is_direction(quantity) ? usual.angles : usual.apertures)};
+                       .expanded_uncertainty =
+                           stated_uncertainty(instrument, geometry_id, quantity).value_or(Angle())};
   }
   const auto nominal = nominal_of(instrument.standard.geometry(geometry_id), quantity);
   return nominal ? std::optional(StatedAngle{.value = *nominal}) : std::nullopt;
+}
+
+std::optional<Angle> stated_uncertainty(const Instrument& instrument,
+                                        const std::string& geometry_id, SetupQuantity quantity) {
+  const GeometryAsBuilt built = built_of(instrument, geometry_id);
+  const auto& found = stated_in(built, quantity);
+  if (found && found->expanded_uncertainty) {
+    return found->expanded_uncertainty;
+  }
+  const SetupUncertainty& usual = instrument.setup_uncertainty;
+  return is_direction(quantity) ? usual.angles : usual.apertures;
 }
 
 Instrument with_quantity(Instrument instrument, const std::string& geometry_id,
@@ -120,6 +131,43 @@ Instrument with_quantity(Instrument instrument, const std::string& geometry_id,
   stated_in(built, quantity) =
       AngleAsBuilt{.value = value.value, .expanded_uncertainty = value.expanded_uncertainty};
   return instrument;
+}
+
+Instrument by_standard(const Instrument& instrument, const Standard& standard) {
+  if (standard.id == instrument.standard.id) {
+    return instrument;
+  }
+  Instrument result = instrument;
+  result.standard = standard;
+  result.geometries.clear();
+  result.behaviour.full_scale_gu.clear();
+  for (std::size_t channel = 0; channel < instrument.geometries.size(); ++channel) {
+    const std::string& id = instrument.geometries[channel];
+    if (std::ranges::none_of(standard.geometries, [&](const auto& g) { return g.id == id; })) {
+      continue;
+    }
+    result.geometries.push_back(id);
+    if (!instrument.behaviour.full_scale_gu.empty()) {
+      result.behaviour.full_scale_gu.push_back(instrument.behaviour.full_scale_gu[channel]);
+    }
+    const GeometryLimits& limits = instrument.standard.geometry(id);
+    GeometryAsBuilt& built =
+        result.as_built.try_emplace(id, GeometryAsBuilt{.mark = limits.mark}).first->second;
+    for (std::size_t i = 0; i < setup_quantity_count; ++i) {
+      const auto quantity = SetupQuantity(i);
+      const auto nominal = nominal_of(limits, quantity);
+      if (nominal && has_quantity(instrument, id, quantity) && !stated_in(built, quantity)) {
+        stated_in(built, quantity) = AngleAsBuilt{.value = *nominal};
+      }
+    }
+  }
+  if (result.geometries.empty()) {
+    throw std::invalid_argument(
+        fmt::format("expected a standard with one of the "
+                    "geometries {} of {}, found '{}'",
+                    fmt::join(instrument.geometries, ", "), instrument.id, standard.id));
+  }
+  return result;
 }
 
 }  // namespace gonio

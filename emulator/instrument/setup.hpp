@@ -29,10 +29,22 @@ using StatedSetup = std::array<std::optional<StatedAngle>, setup_quantity_count>
                                                   const std::string& geometry_id,
                                                   SetupQuantity quantity);
 
+/// How well that quantity is known, k = 2: as stated with it, else as the instrument's
+/// `setup_uncertainty` says, also of what is nominal for lack of another value; nothing if neither
+/// says anything.
+[[nodiscard]] std::optional<Angle> stated_uncertainty(const Instrument& instrument,
+                                                      const std::string& geometry_id,
+                                                      SetupQuantity quantity);
+
 /// The same instrument with that quantity at another value, known as well as `value` says. A size
 /// that the standard leaves unknown can be set.
 /// @throws std::invalid_argument  if there is no such geometry, or it has no such quantity.
 [[nodiscard]] Instrument with_quantity(Instrument instrument, const std::string& geometry_id,
                                        SetupQuantity quantity, const StatedAngle& value);
+
+/// The same instrument by the numbers of another standard, in the geometries that both have. What
+/// is not stated as built stays as the standard says that it was built to.
+/// @throws std::invalid_argument  if they have no geometry in common.
+[[nodiscard]] Instrument by_standard(const Instrument& instrument, const Standard& standard);
 
 }  // namespace gonio

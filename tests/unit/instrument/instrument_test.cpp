@@ -263,7 +263,7 @@ TEST(InstrumentErrors, OfKeys) {
             ":5:1: colour: expected one of the keys as_built, behaviour, built_to, geometries, id, "
             "identity, notes, polarization, repeatability, responsivity, samples, schema, "
             "setup_uncertainty, "
-            "source_spectrum, title, wire, found 'colour'");
+            "source_spectrum, title, uncertainty, wire, found 'colour'");
   EXPECT_EQ(error_of(instrument_text("as_built:\n  \"60\": {colour: 3 deg}\n")),
             ":6:10: as_built.60.colour: expected one of the keys receptor, source, theta_i, "
             "theta_r, found 'colour'");

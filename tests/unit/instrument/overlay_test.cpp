@@ -139,6 +139,20 @@ TEST(Overlay, MergesTheUncertaintyOfTheSetUp) {
   EXPECT_EQ(as_built(changed, "60", source_in_plane), stated(0.8, 0.01));
 }
 
+TEST(Overlay, MergesTheUncertaintyOfComponents) {
+  const auto u_of = [](const Instrument& instrument, UncertaintyComponent component) {
+    return instrument.uncertainty->components.at(component).at("60").standard_uncertainty;
+  };
+  const Instrument one = laid_over(nominal_instrument(shipped_standard("iso_2813/2014")),
+                                   "uncertainty: {zero: {standard_uncertainty: 0.1 GU}}");
+  const Instrument two = laid_over(one, "uncertainty: {drift: {standard_uncertainty: 0.002}}");
+  EXPECT_EQ(u_of(two, UncertaintyComponent::zero), 0.1);
+  EXPECT_EQ(u_of(two, UncertaintyComponent::drift), 0.002);
+  EXPECT_EQ(u_of(laid_over(two, "uncertainty: {zero: {standard_uncertainty: 0 GU}}"),
+                 UncertaintyComponent::zero),
+            0.0);
+}
+
 TEST(Overlay, SetsThePolarizationOfAllGeometriesOrOfThoseNamed) {
   using Polarization = std::map<std::string, double>;
   const Instrument pocket = laid_over(shipped_instrument("pocket_gloss_60"), "polarization: 0.01");
@@ -230,7 +244,7 @@ TEST(OverlayErrors, OfWhatCannotBeLaidOver) {
     EXPECT_EQ(error_of(key),
               "case.yaml:1:1: " + name +
                   ": expected one of the keys as_built, behaviour, polarization, repeatability, "
-                  "responsivity, samples, setup_uncertainty, source_spectrum, found "
+                  "responsivity, samples, setup_uncertainty, source_spectrum, uncertainty, found "
                   "'" +
                   name + "'");
   }

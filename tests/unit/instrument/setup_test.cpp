@@ -30,47 +30,6 @@ std::optional<StatedAngle> stated(double value_deg, double uncertainty_deg) {
 
 SetupQuantity quantity_at(std::size_t i) { return SetupQuantity(i); }
 
-TEST(SetupQuantityNames, LeadBackToTheQuantity) {
-  for (std::size_t i = 0; i < setup_quantity_count; ++i) {
-    EXPECT_EQ(setup_quantity(setup_quantity_names[i]), quantity_at(i));
-  }
-  EXPECT_EQ(setup_quantity("receptor_diameter"), receptor_diameter);
-  EXPECT_EQ(setup_quantity("theta"), std::nullopt);
-  EXPECT_EQ(setup_quantity(""), std::nullopt);
-}
-
-// Limits.
-
-TEST(SetupLimit, IsTheStandardsNumberOfThatQuantity) {
-  const Standard standard = shipped_standard("iso_2813/2014");
-  const GeometryLimits& limits = standard.geometry("60");
-  EXPECT_EQ(limit_of(limits, theta_i), &limits.theta_i);
-  EXPECT_EQ(limit_of(limits, theta_r), &*limits.theta_r);
-  EXPECT_EQ(limit_of(limits, source_in_plane)->nominal, degrees(0.75));
-  EXPECT_EQ(limit_of(limits, source_perpendicular)->nominal, degrees(2.5));
-  EXPECT_EQ(limit_of(limits, receptor_in_plane)->nominal, degrees(4.4));
-  EXPECT_EQ(limit_of(limits, receptor_perpendicular)->nominal, degrees(11.7));
-  EXPECT_EQ(limit_of(limits, receptor_perpendicular)->tolerance, degrees(0.2));
-}
-
-TEST(SetupLimit, IsNullWhereTheStandardSaysNothing) {
-  const Standard rectangles = shipped_standard("iso_2813/2014");
-  EXPECT_EQ(limit_of(rectangles.geometry("60"), source_diameter), nullptr);
-  EXPECT_EQ(limit_of(rectangles.geometry("60"), receptor_diameter), nullptr);
-  const Standard round = shipped_standard("tappi_t653/om_07");
-  EXPECT_EQ(limit_of(round.geometry("20"), receptor_diameter)->nominal, degrees(5.0));
-  EXPECT_EQ(limit_of(round.geometry("20"), receptor_in_plane), nullptr);
-  GeometryLimits mirror = rectangles.geometry("60");
-  mirror.theta_r.reset();
-  EXPECT_EQ(limit_of(mirror, theta_r), nullptr);
-}
-
-TEST(SetupLimit, IsNullWhereTheNumberIsUnknown) {
-  const Standard paper = shipped_standard("tappi_t480/om_15");
-  EXPECT_EQ(limit_of(paper.geometry("75"), source_in_plane), nullptr);
-  EXPECT_EQ(limit_of(paper.geometry("75"), receptor_perpendicular), nullptr);
-}
-
 // As built.
 
 TEST(SetupAsBuilt, IsNominalWhereTheFileDoesNotSay) {
@@ -119,6 +78,23 @@ TEST(SetupAsBuilt, TakesTheCommonUncertaintyWhereNoneIsStatedWithAValue) {
   // Nobody has measured these.
   EXPECT_EQ(as_built(instrument, "60", receptor_perpendicular), stated(11.7, 0.0));
   EXPECT_EQ(as_built(instrument, "20", theta_i), stated(20.0, 0.0));
+}
+
+TEST(SetupUncertainty, IsNothingWhereNobodyStatesIt) {
+  const Instrument some = load_text(
+      instrument_text("setup_uncertainty: {angles: 0.01 deg}\n"
+                      "as_built:\n"
+                      "  \"60\":\n"
+                      "    theta_i: {value: 60.04 deg, expanded_uncertainty: 0 deg}\n"
+                      "    theta_r: 59.97 deg\n"
+                      "    source: {in_plane: {value: 0.8 deg, expanded_uncertainty: 0.02 deg}}\n"
+                      "    receptor: {in_plane: 4.43 deg}\n"));
+  EXPECT_EQ(stated_uncertainty(some, "60", theta_i), degrees(0.0));
+  EXPECT_EQ(stated_uncertainty(some, "60", theta_r), degrees(0.01));
+  EXPECT_EQ(stated_uncertainty(some, "20", theta_i), degrees(0.01));  // nominal for lack of another
+  EXPECT_EQ(stated_uncertainty(some, "60", source_in_plane), degrees(0.02));
+  EXPECT_EQ(stated_uncertainty(some, "60", receptor_in_plane), std::nullopt);
+  EXPECT_EQ(as_built(some, "60", receptor_in_plane), stated(4.43, 0.0));
 }
 
 TEST(SetupAsBuilt, OfACircleHasADiameterAndNoSides) {
@@ -276,6 +252,49 @@ TEST(SetupErrors, OfTheCommonUncertainty) {
   EXPECT_EQ(error_of(instrument_text("setup_uncertainty: 0.01 deg\n")),
             ":5:20: setup_uncertainty: expected a map of keys and values, found "
             "'0.01 deg'");
+}
+
+// By another standard.
+
+TEST(ByStandard, KeepsWhatWasBuilt) {
+  const Instrument instrument =
+      load_instrument(shipped().find(Catalog::Kind::instrument, "triangle_gloss"), shipped());
+  const Instrument by_astm = by_standard(instrument, shipped_standard("astm_d523/14"));
+  EXPECT_EQ(by_astm.standard.id, "astm_d523/14");
+  EXPECT_EQ(by_astm.geometries, instrument.geometries);
+  for (const std::string& id : instrument.geometries) {
+    for (std::size_t i = 0; i < setup_quantity_count; ++i) {
+      const auto before = as_built(instrument, id, quantity_at(i));
+      const auto after = as_built(by_astm, id, quantity_at(i));
+      ASSERT_EQ(before.has_value(), after.has_value()) << id << setup_quantity_names[i];
+      if (before) {
+        EXPECT_EQ(before->value, after->value) << id << setup_quantity_names[i];
+      }
+    }
+  }
+}
+
+TEST(ByStandard, KeepsTheNominalValuesThatItWasBuiltTo) {
+  // Both have a geometry of 60 deg.
+  const Instrument instrument = nominal_instrument(shipped_standard("iso_2813/2014"));
+  const Instrument by_film = by_standard(instrument, shipped_standard("astm_d2457/13"));
+  EXPECT_EQ(as_built(by_film, "60", receptor_in_plane)->value, degrees(4.4));
+  EXPECT_EQ(by_film.behaviour.full_scale_gu.size(), 0U);
+}
+
+TEST(ByStandard, LeavesOutWhatTheOtherStandardDoesNotHave) {
+  const Instrument instrument =
+      load_instrument(shipped().find(Catalog::Kind::instrument, "triangle_gloss"), shipped());
+  const Instrument at_20 = by_standard(instrument, shipped_standard("astm_e430/11"));
+  for (const std::string& id : at_20.geometries) {
+    EXPECT_NO_THROW((void)at_20.standard.geometry(id)) << id;
+  }
+  EXPECT_LT(at_20.geometries.size(), instrument.geometries.size());
+  EXPECT_EQ(at_20.behaviour.full_scale_gu.size(), at_20.geometries.size());
+  EXPECT_EQ(
+      message_of([&] { (void)by_standard(instrument, shipped_standard("tappi_t480/om_15")); }),
+      "expected a standard with one of the geometries 20, 60, 85 of "
+      "triangle_gloss, found 'tappi_t480/om_15'");
 }
 
 }  // namespace
