@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
-#include <string_view>
 
+#include "emulator/core/csv_cell.hpp"
 #include "emulator/core/text_file.hpp"
 
 namespace gonio {
@@ -18,42 +18,12 @@ namespace {
 /// Wavelengths closer than this are the same: a grid built by steps may miss an end by rounding.
 constexpr double same_wavelength_nm = 1e-6;
 
-struct Cell {
-  std::string_view text;
-  int column;  // of its first character, from 1
-};
-
-std::string_view trimmed(std::string_view text) {
-  const auto first = text.find_first_not_of(" \t\r");
-  if (first == std::string_view::npos) {
-    return {};
-  }
-  return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
-std::vector<Cell> split(std::string_view line) {
-  std::vector<Cell> cells;
-  for (std::size_t begin = 0;;) {
-    const std::size_t end = std::min(line.find(',', begin), line.size());
-    const std::string_view text = trimmed(line.substr(begin, end - begin));
-    cells.push_back({text, int(text.empty() ? begin : std::size_t(text.data() - line.data())) + 1});
-    if (end == line.size()) {
-      return cells;
-    }
-    begin = end + 1;
-  }
-}
-
-/// Collects rows of cells; knows the place of the line it is at.
+/// Collects rows of cells.
 class CsvReader {
  public:
   explicit CsvReader(const std::string& file) { table_.file = file; }
 
-  void line(std::string_view text, int number) {
-    if (trimmed(text).empty() || trimmed(text).front() == '#') {
-      return;
-    }
-    const std::vector<Cell> cells = split(text);
+  void row(const std::vector<CsvCell>& cells, int number) {
     if (table_.columns.empty() && header(cells, number)) {
       return;
     }
@@ -61,7 +31,7 @@ class CsvReader {
       throw InputError(place(number, 1), fmt::format("{} cells", table_.columns.size()),
                        fmt::format("{} cells", cells.size()));
     }
-    for (const Cell& cell : cells) {
+    for (const CsvCell& cell : cells) {
       cells_.push_back(number_in(cell, number));
     }
   }
@@ -83,8 +53,8 @@ class CsvReader {
   }
 
   /// Takes the names from the first line. @return  whether that line was a header.
-  bool header(const std::vector<Cell>& cells, int line) {
-    const Cell& first = cells.front();
+  bool header(const std::vector<CsvCell>& cells, int line) {
+    const CsvCell& first = cells.front();
     const bool named = !parse_quantity(first.text, Dimension::number);
     if (named && first.text.find_first_of("+-.0123456789") == 0) {
       throw InputError(place(line, first.column), "a number or the name of a column",
@@ -96,7 +66,7 @@ class CsvReader {
     return named;
   }
 
-  [[nodiscard]] double number_in(const Cell& cell, int line) const {
+  [[nodiscard]] double number_in(const CsvCell& cell, int line) const {
     if (cell.text.empty()) {
       return std::numeric_limits<double>::quiet_NaN();
     }
@@ -116,12 +86,8 @@ class CsvReader {
 CsvTable CsvTable::load(const std::filesystem::path& path) {
   const std::string text = read_text_file(path);
   CsvReader reader(path.string());
-  int number = 0;
-  for (std::size_t begin = 0; begin < text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    reader.line(std::string_view(text).substr(begin, end - begin), ++number);
-    begin = end + 1;
-  }
+  for_each_csv_row(text,
+                   [&](const std::vector<CsvCell>& cells, int line) { reader.row(cells, line); });
   return reader.finish();
 }
 

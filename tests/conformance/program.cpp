@@ -5,12 +5,12 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdlib>
 #include <deque>
 
 #include "emulator/core/progress.hpp"
 #include "emulator/core/text_file.hpp"
+#include "emulator/core/today.hpp"
 #include "tests/conformance/device_under_test.hpp"
 #include "tests/conformance/run.hpp"
 #include "tests/conformance/served_device.hpp"
@@ -33,18 +33,6 @@ struct Options {
   bool lists = false;
   bool shows_coverage = false;
 };
-
-/// The day of the run, or of $SOURCE_DATE_EPOCH for a report that can be made again.
-std::string today() {
-  std::time_t now = std::time(nullptr);
-  if (const char* epoch = std::getenv("SOURCE_DATE_EPOCH")) {
-    now = std::strtoll(epoch, nullptr, 10);
-  }
-  const std::chrono::year_month_day day{
-      std::chrono::floor<std::chrono::days>(std::chrono::system_clock::from_time_t(now))};
-  return fmt::format("{:04}-{:02}-{:02}", int(day.year()), unsigned(day.month()),
-                     unsigned(day.day()));
-}
 
 void print(const std::string& text) {
   if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <string>
+
+namespace gonio {
+
+/// The day it is, YYYY-MM-DD, or that of $SOURCE_DATE_EPOCH for a report that can be made again.
+[[nodiscard]] std::string today();
+
+}  // namespace gonio
