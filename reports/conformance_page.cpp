@@ -9,37 +9,11 @@
 #include "reports/measurement_words.hpp"
 #include "reports/page.hpp"
 #include "reports/page_charts.hpp"
+#include "reports/page_verdict.hpp"
 
 namespace gonio {
 
 namespace {
-
-/// Seen without colours too.
-const char* symbol_of(ConformanceVerdict verdict) {
-  switch (verdict) {
-    case ConformanceVerdict::pass:
-      return "\u2713";
-    case ConformanceVerdict::fail:
-      return "\u2717";
-    case ConformanceVerdict::inconclusive:
-      return "\u2248";
-    case ConformanceVerdict::not_applicable:
-      return "\u2013";
-    case ConformanceVerdict::skipped:
-      return "\u25CB";
-    case ConformanceVerdict::error:
-      break;
-  }
-  return "!";
-}
-
-PageData verdict_data(ConformanceVerdict verdict) {
-  PageData data;
-  data.set("name", verdict_name(verdict));
-  data.set("words", verdict_words(verdict));
-  data.set("symbol", symbol_of(verdict));
-  return data;
-}
 
 PageData link(const std::string& text_key, const std::string& text, const std::string& to) {
   PageData data(text_key, text);

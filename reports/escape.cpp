@@ -1,5 +1,7 @@
 #include "reports/escape.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 
@@ -116,6 +118,16 @@ std::string markdown_text(std::string_view text) {
     }
   }
   return escaped;
+}
+
+std::string css_text(std::string_view text) {
+  std::string css;
+  for (const char c : one_line(text)) {
+    const auto byte = static_cast<unsigned char>(c);
+    const bool stays = is_word(c) || c == ' ' || byte >= 0x80;
+    css += stays ? std::string(1, c) : fmt::format("\\{:06X} ", byte);
+  }
+  return css;
 }
 
 }  // namespace gonio

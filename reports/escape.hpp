@@ -19,4 +19,8 @@ namespace gonio {
 /// in it is markup.
 [[nodiscard]] std::string markdown_text(std::string_view text);
 
+/// One line for a string of CSS in double quotes: what is no letter, digit or space stands there by
+/// its number.
+[[nodiscard]] std::string css_text(std::string_view text);
+
 }  // namespace gonio

@@ -6,33 +6,17 @@
 #include <cmath>
 #include <limits>
 
+#include "reports/axis_span.hpp"
 #include "reports/conformance_words.hpp"
 
 namespace gonio {
 
 namespace {
 
-/// What an axis shows. gnuplot refuses one without length, and one of no numbers at all.
-struct Span {
-  double low, high;
-
-  void include(double value) {
-    if (std::isfinite(value)) {
-      low = std::min(low, value);
-      high = std::max(high, value);
-    }
-  }
-  /// At least that long, the same on both sides.
-  [[nodiscard]] Span at_least(double length) const {
-    const double more = std::max(0.0, length - (high - low)) / 2.0;
-    return {low - more, high + more};
-  }
-};
-
 /// What holds all the outlines and the grid.
-Span window(const Footprint& footprint, const std::vector<double>& grid,
-            std::vector<double> FootprintOutline::*axis) {
-  Span span{0.0, 0.0};
+AxisSpan window(const Footprint& footprint, const std::vector<double>& grid,
+                std::vector<double> FootprintOutline::*axis) {
+  AxisSpan span{0.0, 0.0};
   if (grid.size() > 1) {
     // Half a pixel of the picture lies outside of the middles of its edge.
     const double half = (grid.back() - grid.front()) / double(grid.size() - 1) / 2.0;
@@ -49,8 +33,8 @@ Span window(const Footprint& footprint, const std::vector<double>& grid,
 }
 
 /// From zero to a little above all the values; to 1 if there are none.
-Span value_axis(const std::vector<Rows>& groups) {
-  Span span{0.0, 0.0};
+AxisSpan value_axis(const std::vector<Rows>& groups) {
+  AxisSpan span{0.0, 0.0};
   for (const Rows& rows : groups) {
     for (const std::vector<double>& row : rows) {
       span.include(row.back());
@@ -58,20 +42,20 @@ Span value_axis(const std::vector<Rows>& groups) {
   }
   constexpr double room = 0.05;
   const double length = span.high - span.low;
-  return length > 0.0
-             ? Span{span.low - (span.low < 0.0 ? room * length : 0.0), span.high + room * length}
-             : Span{0.0, 1.0};
+  return length > 0.0 ? AxisSpan{span.low - (span.low < 0.0 ? room * length : 0.0),
+                                 span.high + room * length}
+                      : AxisSpan{0.0, 1.0};
 }
 
 /// From the first to the last wavelength; the visible ones if there are none.
-Span wavelength_axis(const std::vector<SpectralCurve>& curves) {
-  Span span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+AxisSpan wavelength_axis(const std::vector<SpectralCurve>& curves) {
+  AxisSpan span{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const SpectralCurve& curve : curves) {
     for (const double lambda : curve.wavelength_nm) {
       span.include(lambda);
     }
   }
-  return span.low <= span.high ? span.at_least(1.0) : Span{380.0, 780.0};
+  return span.low <= span.high ? span.at_least(1.0) : AxisSpan{380.0, 780.0};
 }
 
 /// Whether there is a picture to draw.
@@ -114,8 +98,8 @@ PageData footprint_figure(Figures& figures, const Footprint& footprint) {
     outlines.push_back(points(outline.in_plane_deg, outline.perpendicular_deg));
     keys.push_back(outline.title);
   }
-  const Span x = window(footprint, footprint.in_plane_deg, &FootprintOutline::in_plane_deg);
-  const Span y =
+  const AxisSpan x = window(footprint, footprint.in_plane_deg, &FootprintOutline::in_plane_deg);
+  const AxisSpan y =
       window(footprint, footprint.perpendicular_deg, &FootprintOutline::perpendicular_deg);
   Chart chart("footprint");
   chart.set("x_low", x.low).set("x_high", x.high).set("y_low", y.low).set("y_high", y.high);
@@ -141,8 +125,8 @@ PageData curves_figure(Figures& figures, CurveKind kind, const std::string& capt
     keys.push_back(curve.title);
   }
   Chart chart("curves");
-  const Span x = wavelength_axis(curves);
-  const Span y = value_axis(groups);
+  const AxisSpan x = wavelength_axis(curves);
+  const AxisSpan y = value_axis(groups);
   chart.set("is_weight", kind == CurveKind::weight ? 1.0 : 0.0);
   chart.set("x_low", x.low).set("x_high", x.high).set("y_low", y.low).set("y_high", y.high);
   chart.set("count", double(curves.size())).block("curves", groups);
@@ -167,7 +151,7 @@ PageData ladder_figure(Figures& figures, const std::vector<const SetupEffects*>&
     groups.push_back(rows);
     keys.emplace_back(quantity_name(*quantity));
   }
-  const Span y = value_axis(groups);
+  const AxisSpan y = value_axis(groups);
   Chart chart("ladder");
   chart.set("y_low", y.low).set("y_high", y.high);
   chart.set("count", double(groups.size())).set("samples", double(samples.size()));

@@ -66,11 +66,13 @@ int run(int argc, char** argv) {
       "Exit status: 0 done, 1 does not conform or the instrument says no, 2 bad input, 3 the "
       "environment failed");
   CommonOptions common;
+  ExitStatus status = done;
   program.add_option("--data", common.data_dir,
                      "Folder with standards and fixtures, searched first");
   add_measure_command(program, common);
   add_list_command(program, common);
   add_glass_command(program, common);
+  add_certify_command(program, common, status);
   add_serve_command(program, common);
   add_registers_command(program);
   add_read_command(program);
@@ -86,7 +88,7 @@ int run(int argc, char** argv) {
     }
     return program.exit(error) == 0 ? done : bad_input;
   }
-  return done;
+  return status;
 }
 
 }  // namespace

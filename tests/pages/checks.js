@@ -148,6 +148,24 @@ async function repeatsHeads(browser, file) {
   expectHead('Leads to', 'All cases: what was tried', 'Evidence: C2 two or more');
 }
 
+/** Each sheet of a certificate says which one it is, of how many, and of which certificate; a table
+ * that fits on one sheet is not cut, so its head stands there once. */
+async function numbersSheets(browser, file, number) {
+  const printed = await printedSheets(await opened(browser, file));
+  const sheets = printed.filter((sheet) => sheet.trim()).map((sheet) => sheet.replace(/\s+/g, ' '));
+  assert.ok(sheets.length > 3);
+  sheets.forEach((sheet, i) => {
+    assert.ok(sheet.includes(`page ${i + 1} of ${sheets.length}`), `sheet ${i + 1}: no number`);
+    assert.ok(sheet.includes(`Calibration certificate ${number}, of`), `sheet ${i + 1}: no name`);
+  });
+  const count = (text) => sheets.join(' ').split(text).length - 1;
+  for (const [caption, head] of [['Readings before and after adjustment', 'U by Monte Carlo'],
+    ['Uncertainty budget at', 'Sensitivity']]) {
+    assert.ok(count(caption) > 1, caption);
+    assert.equal(count(head), count(caption), `${caption}: cut`);
+  }
+}
+
 /** In the page: the verdicts of the rows of a kind that are seen. */
 function seenVerdicts(kind) {
   return [...document.querySelectorAll(`tr[data-kind=${kind}]`)]
@@ -215,5 +233,5 @@ async function worksWithoutScripts(browser, file) {
   assert.equal(controls, 0);
 }
 
-module.exports = { drawsCharts, filters, fitsOnPaper, isAccessible, isQuiet, leadsSomewhere, opened,
-  repeatsHeads, worksWithoutScripts };
+module.exports = { drawsCharts, filters, fitsOnPaper, isAccessible, isQuiet, leadsSomewhere,
+  numbersSheets, opened, repeatsHeads, worksWithoutScripts };

@@ -11,7 +11,8 @@ const checks = require('./checks.js');
 
 const folder = process.argv[2];
 const inFolder = (name) => path.join(folder, name);
-const charts = { 'conformance.html': 3, 'long.html': 3, 'hostile.html': 3, 'measurement.html': 9 };
+const charts = { 'conformance.html': 3, 'long.html': 3, 'hostile.html': 3, 'measurement.html': 9,
+  'certificate.html': 8, 'shipped/certificate.html': 12, 'hostile_certificate.html': 8 };
 
 let browser;
 before(() => { browser = new Browser(); });
@@ -24,7 +25,7 @@ for (const [name, count] of Object.entries(charts)) {
   test(`${name} is accessible`, () => checks.isAccessible(browser, file));
   test(`${name} fits on paper`, () => checks.fitsOnPaper(browser, file));
   test(`${name} works without scripts`, () => checks.worksWithoutScripts(browser, file));
-  if (name !== 'hostile.html') {  // all its ids are made from one text
+  if (!name.startsWith('hostile')) {  // all its ids are made from one text
     test(`${name} leads somewhere`, () => checks.leadsSomewhere(browser, file));
   }
 }
@@ -34,16 +35,21 @@ test('conformance.html can be filtered', () =>
 test('long.html repeats the heads of its tables', () =>
   checks.repeatsHeads(browser, inFolder('long.html')));
 
-test('hostile text is shown and not run', async () => {
-  const page = await checks.opened(browser, inFolder('hostile.html'));
-  const [title, scripts, text] = await page.evaluate(() =>
-    [document.title, document.scripts.length, document.body.innerText]);
-  assert.notEqual(title, 'run');
-  assert.equal(scripts, 1);
-  assert.ok(text.includes('<script>document.title = \'run\'</script>'));
-  assert.ok(text.includes('{{title}} {{{svg}}}'));
-  assert.ok(!fs.existsSync(inFolder('trace')));
-});
+test('certificate.html numbers its sheets and cuts no table that fits on one', () =>
+  checks.numbersSheets(browser, inFolder('certificate.html'), 'EGL-2026-0042'));
+
+for (const [name, scripts] of [['hostile.html', 1], ['hostile_certificate.html', 0]]) {
+  test(`hostile text of ${name} is shown and not run`, async () => {
+    const page = await checks.opened(browser, inFolder(name));
+    const [title, found, text] = await page.evaluate(() =>
+      [document.title, document.scripts.length, document.body.innerText]);
+    assert.notEqual(title, 'run');
+    assert.equal(found, scripts);
+    assert.ok(text.includes('<script>document.title = \'run\'</script>'));
+    assert.ok(text.includes('{{title}} {{{svg}}}'));
+    assert.ok(!fs.existsSync(inFolder('trace')));
+  });
+}
 
 for (const name of ['conformance.xml', 'hostile.xml']) {
   test(`${name} is well-formed, and its sums are right`, async () => {

@@ -13,6 +13,7 @@ const checks = require('./checks.js');
 
 const sound = fs.readFileSync(path.join(process.argv[2], 'conformance.html'), 'utf8');
 const long = fs.readFileSync(path.join(process.argv[2], 'long.html'), 'utf8');
+const certificate = fs.readFileSync(path.join(process.argv[2], 'certificate.html'), 'utf8');
 const charts = 3;
 
 let browser;
@@ -35,6 +36,8 @@ function replaced(text, pattern, by) {
 const added = (html) => replaced(sound, /<\/main>/, `${html}</main>`);
 const styled = (css, page = sound) => replaced(page, /<\/style>/, `${css}</style>`);
 const withoutPolicy = (page) => replaced(page, /<meta http-equiv[^>]*>/, '');
+
+const numbersSheets = (browser_, file) => checks.numbersSheets(browser_, file, 'EGL-2026-0042');
 
 const unsound = [
   ['an error in a script', added('<script>throw new Error("no")</script>'), checks.isQuiet],
@@ -60,6 +63,9 @@ const unsound = [
     checks.fitsOnPaper],
   ['heads that stand once', styled('thead { display: table-row-group !important }', long),
     checks.repeatsHeads],
+  ['sheets without numbers', replaced(certificate, /counter\(page\)/, '""'), numbersSheets],
+  ['a table that is cut', styled('.whole { break-inside: auto !important }', certificate),
+    numbersSheets],
   ['a filter that does nothing', replaced(sound, /row\.hidden = /, 'row.title = '), checks.filters],
   ['a filter deaf to words', replaced(sound, /words\.every\([^\n]*/, 'true;'), checks.filters],
   ['a link to a hidden row', replaced(sound, /form\.reset\(\);/, ''), checks.filters],

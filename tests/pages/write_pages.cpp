@@ -7,6 +7,7 @@
 #include "emulator/core/text_file.hpp"
 #include "reports/conformance_report.hpp"
 #include "tests/unit/reports/example_report.hpp"
+#include "tests/unit/reports/hostile_certificate.hpp"
 #include "tests/unit/reports/hostile_report.hpp"
 
 namespace gonio {
@@ -37,6 +38,20 @@ ConformanceReport long_report() {
   return report;
 }
 
+void write_certificates(const std::filesystem::path& folder) {
+  const Certificate sound = test::example_certificate();
+  write_text_file(folder / "certificate.html", certificate_page(test::report_of(sound)));
+  const std::string text = test::hostile_text(folder / "trace");
+  Certificate hostile = test::hostile_certificate(text);
+  for (std::size_t i = 0; i < hostile.geometries.size(); ++i) {  // ours: they stand in narrow heads
+    for (std::size_t j = 0; j < hostile.geometries[i].effects.size(); ++j) {
+      hostile.geometries[i].effects[j].component = sound.geometries[i].effects[j].component;
+    }
+  }
+  write_text_file(folder / "hostile_certificate.html",
+                  certificate_page(test::hostile_report_of(hostile, text)));
+}
+
 void write_pages(const std::filesystem::path& folder) {
   const ConformanceReport hostile = test::hostile_report(test::hostile_text(folder / "trace"));
   write_text_file(folder / "conformance.html", conformance_page(test::example_report()));
@@ -44,6 +59,7 @@ void write_pages(const std::filesystem::path& folder) {
   write_text_file(folder / "long.html", conformance_page(long_report()));
   write_text_file(folder / "hostile.html", conformance_page(hostile));
   write_text_file(folder / "hostile.xml", conformance_junit(hostile));
+  write_certificates(folder);
 }
 
 }  // namespace

@@ -17,16 +17,11 @@ using nlohmann::json;
 using test::contents;
 using test::Outcome;
 using test::Program;
+using test::with;
 using testing::HasSubstr;
 
 const std::vector<std::string> measure_paint{"measure", "--sample", "black_semi_gloss",
                                              "--geometry", "60"};
-
-std::vector<std::string> with(std::vector<std::string> arguments,
-                              const std::vector<std::string>& more) {
-  arguments.insert(arguments.end(), more.begin(), more.end());
-  return arguments;
-}
 
 TEST(MeasureReport, IsAPageAndTheSameJsonAndCsvAsArePrinted) {
   const Program program;

@@ -12,6 +12,7 @@
 #include "emulator/core/text_file.hpp"
 #include "reports/measurement_report.hpp"
 #include "tests/unit/procedure/laboratory.hpp"
+#include "tests/unit/reports/example_certificate.hpp"
 #include "tests/unit/reports/example_report.hpp"
 
 // Reports against reports/reference/, see the README there. UPDATE_REFERENCE=1 rewrites the files.
@@ -115,6 +116,13 @@ TEST(ApprovedReports, ConformanceIsTheSameInEveryTextFormat) {
   expect_approved("conformance.jsonl", conformance_json_lines(report));
   expect_approved("conformance.xml", conformance_junit(report));
   expect_approved("conformance.md", conformance_markdown(report));
+}
+
+TEST(ApprovedReports, CertificateIsTheSameInEveryTextFormat) {
+  const Certificate certificate = test::example_certificate();
+  expect_approved("certificate.txt", certificate_text(test::report_of(certificate), false));
+  const Certificate brief = test::brief_certificate();
+  expect_approved("certificate.json", certificate_json(test::report_of(brief)));
 }
 
 }  // namespace

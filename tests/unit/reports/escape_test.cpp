@@ -39,5 +39,12 @@ TEST(MarkdownText, LeavesIdsAsTheyAre) {
   EXPECT_EQ(markdown_text("_a_"), R"(\_a\_)");
 }
 
+TEST(CssText, LeavesNothingThatCouldEndAString) {
+  EXPECT_EQ(css_text("No. 7"), "No\\00002E  7");
+  EXPECT_EQ(css_text("\"\\;}</style>"),
+            "\\000022 \\00005C \\00003B \\00007D \\00003C \\00002F style\\00003E ");
+  EXPECT_EQ(css_text("a\nb\x1B \xFFStra\u00DFe"), "a b \uFFFDStra\u00DFe");
+}
+
 }  // namespace
 }  // namespace gonio

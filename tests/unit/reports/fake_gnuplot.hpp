@@ -33,13 +33,13 @@ class SearchPath {
   std::optional<std::string> before_;
 };
 
-/// A program `gnuplot` that is found before the real one.
-class FakeGnuplot {
+/// A program that is found before the real one.
+class FakeProgram {
  public:
   /// @param commands  of a shell; their folder is $here.
-  explicit FakeGnuplot(const std::string& commands) {
-    const auto file = folder_.file(
-        "gnuplot", "#!/bin/sh\nhere=" + folder_.path().string() + "\n" + commands + "\n");
+  FakeProgram(const std::string& name, const std::string& commands) {
+    const auto file =
+        folder_.file(name, "#!/bin/sh\nhere=" + folder_.path().string() + "\n" + commands + "\n");
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
   }
 
@@ -48,6 +48,11 @@ class FakeGnuplot {
  private:
   TemporaryFolder folder_;
   SearchPath path_{folder_.path().string() + ":/usr/bin:/bin"};
+};
+
+class FakeGnuplot : public FakeProgram {
+ public:
+  explicit FakeGnuplot(const std::string& commands) : FakeProgram("gnuplot", commands) {}
 };
 
 }  // namespace gonio::test
