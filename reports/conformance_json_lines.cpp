@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "emulator/core/quantity.hpp"
+#include "emulator/core/unit_value.hpp"
 #include "reports/conformance_report.hpp"
 #include "reports/conformance_words.hpp"
 
@@ -19,12 +19,6 @@ ordered_json json_of(const std::optional<double>& number) {
 
 ordered_json json_of(const SourceMark& mark) {
   return {{"file", mark.file}, {"line", mark.line}, {"column", mark.column}};
-}
-
-/// In degrees, without the last bits that its way through radians leaves.
-double degrees_of(Angle angle) {
-  return parse_quantity(fmt::format("{:.12g}", angle.degrees()), Dimension::number)
-      .value_or(angle.degrees());
 }
 
 ordered_json json_of(const LimitRow& limit) {
@@ -44,10 +38,10 @@ ordered_json json_of(const LimitRow& limit) {
 ordered_json json_of(const SetupEffects& effects) {
   ordered_json json{{"geometry", effects.geometry},
                     {"quantity", quantity_name(effects)},
-                    {"nominal_deg", degrees_of(effects.nominal)},
-                    {"as_built_deg", degrees_of(effects.as_built)},
-                    {"low_deg", degrees_of(effects.low)},
-                    {"high_deg", degrees_of(effects.high)},
+                    {"nominal_deg", stated_degrees(effects.nominal)},
+                    {"as_built_deg", stated_degrees(effects.as_built)},
+                    {"low_deg", stated_degrees(effects.low)},
+                    {"high_deg", stated_degrees(effects.high)},
                     {"ladder", ordered_json::array()}};
   for (const LadderRow& row : effects.rows) {
     json["ladder"].push_back({{"sample", row.sample},

@@ -19,10 +19,8 @@ using Eigen::VectorXd;
 /// Of the box that polynomials are fitted in, in standard uncertainties. Of a normal distribution 6
 /// draws of 100,000 lie beyond; as if at its edge, they take a ten-thousandth off its uncertainty.
 constexpr double reach = 4.0;
-/// Steps that stand out of the noise of an integral, where uncertainties are smaller: degrees, and
-/// for polarisation and spectral slope numbers.
-constexpr double least_angle_step = 0.02;
-constexpr double least_number_step = 0.01;
+/// Of a polynomial, in GU: where it errs by more, the optics themselves are read.
+constexpr double largest_error_gu = 1e-3;
 /// Asked of the integrator where it reads trials one by one, in GU.
 constexpr double direct_tolerance = 1e-4;
 
@@ -45,11 +43,10 @@ double reach_of(const Distribution& distribution) {
 
 ReadingModel::ReadingModel(const Instrument& instrument, const InputSet& set, GeometryInputs inputs,
                            const std::vector<Sample>& samples, double tolerance)
-    : instrument_(instrument),
-      set_(set),
+    : set_(set),
       inputs_(std::move(inputs)),
       samples_(samples),
-      optics_(std::make_shared<OpticalResponse>(instrument, inputs_.geometry, samples, tolerance)),
+      optics_(instrument, inputs_.geometry, samples, tolerance),
       equation_(measurement_equation(instrument, inputs_.geometry)) {
   for (const std::size_t place : inputs_.setup_index) {
     optical_index_.push_back(Index(place));
@@ -68,6 +65,10 @@ VectorXd ReadingModel::estimates() const {
   return x;
 }
 
+const InputQuantity& ReadingModel::optical_input(Index parameter) const {
+  return set_.inputs()[std::size_t(optical_index_[std::size_t(parameter)])];
+}
+
 VectorXd ReadingModel::optical_part(const VectorXd& x) const { return x(optical_index_); }
 
 VectorXd ReadingModel::of_optics(const VectorXd& g, const VectorXd& x) const {
@@ -76,20 +77,17 @@ VectorXd ReadingModel::of_optics(const VectorXd& g, const VectorXd& x) const {
 }
 
 VectorXd ReadingModel::operator()(const VectorXd& x) const {
-  return of_optics((*optics_)(optical_part(x)), x);
+  return of_optics(optics_(optical_part(x)), x);
 }
 
 MatrixXd ReadingModel::jacobian() const {
   const VectorXd x = estimates();
-  VectorXd steps(optics_->size());
+  VectorXd steps(optics_.size());
   for (Index i = 0; i < steps.size(); ++i) {
-    const double u = set_.inputs()[std::size_t(optical_index_[std::size_t(i)])]
-                         .distribution.standard_uncertainty;
-    const bool is_angle = i < Index(inputs_.setup.size());
-    steps[i] = u == 0.0 ? 0.0 : std::max(u, is_angle ? least_angle_step : least_number_step);
+    steps[i] = optical_input(i).distribution.standard_uncertainty;
   }
-  const VectorXd g = (*optics_)(optical_part(x));
-  const MatrixXd of_optical = optics_->jacobian(optical_part(x), steps);
+  const VectorXd g = optics_(optical_part(x));
+  const MatrixXd of_optical = optics_.jacobian(optical_part(x), steps);
   const auto d = components_of(inputs_, x);
   MatrixXd result = MatrixXd::Zero(g.size(), Index(set_.size()));
   for (Index s = 0; s < g.size(); ++s) {
@@ -122,23 +120,17 @@ MatrixXd ReadingModel::secants() const {
 }
 
 void ReadingModel::fit(std::uint64_t seed) {
-  VectorXd half_width(optics_->size());
+  VectorXd half_width(optics_.size());
   for (Index i = 0; i < half_width.size(); ++i) {
-    half_width[i] =
-        reach_of(set_.inputs()[std::size_t(optical_index_[std::size_t(i)])].distribution);
+    half_width[i] = reach_of(optical_input(i).distribution);
   }
-  surrogate_ = PolynomialSurrogate::fit(
-      [&](const VectorXd& parameters) { return (*optics_)(parameters); }, optical_part(estimates()),
-      half_width, {.target_error = largest_error_gu / 2, .seed = seed});
+  surrogate_ = PolynomialSurrogate::fit(optics_, optical_part(estimates()), half_width,
+                                        {.target_error = largest_error_gu / 2, .seed = seed});
   for (std::size_t s = 0; s < samples_.size(); ++s) {
     if (!(surrogate_->error()[Index(s)] < largest_error_gu)) {
       direct_.push_back(s);
-      direct_samples_.push_back(samples_[s]);
+      direct_optics_.push_back(optics_.of_sample(s).with_tolerance(direct_tolerance));
     }
-  }
-  if (!direct_.empty()) {
-    direct_optics_ = std::make_shared<OpticalResponse>(instrument_, inputs_.geometry,
-                                                       direct_samples_, direct_tolerance);
   }
 }
 
@@ -150,13 +142,12 @@ void ReadingModel::evaluate(const ArrayXXd& x, Eigen::Ref<ArrayXXd> y) const {
 }
 
 void ReadingModel::evaluate_directly(const ArrayXXd& x, Eigen::Ref<ArrayXXd> y) const {
-  if (direct_.empty()) {
-    return;
-  }
   const ArrayXXd parameters = x(Eigen::all, optical_index_);
   ArrayXXd g(x.rows(), Index(direct_.size()));
   for (Index t = 0; t < x.rows(); ++t) {
-    g.row(t) = (*direct_optics_)(parameters.row(t).matrix().transpose()).transpose().array();
+    for (std::size_t i = 0; i < direct_optics_.size(); ++i) {
+      g(t, Index(i)) = direct_optics_[i](parameters.row(t).matrix().transpose())[0];
+    }
   }
   of_optics(g, x, y);
 }

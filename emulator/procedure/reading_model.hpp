@@ -2,7 +2,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -25,7 +24,7 @@ class ReadingModel {
   ReadingModel(const Instrument& instrument, const InputSet& set, GeometryInputs inputs,
                const std::vector<Sample>& samples, double tolerance);
 
-  [[nodiscard]] const OpticalResponse& optics() const { return *optics_; }
+  [[nodiscard]] const OpticalResponse& optics() const { return optics_; }
   [[nodiscard]] const MeasurementEquation& equation() const { return equation_; }
   [[nodiscard]] const GeometryInputs& inputs() const { return inputs_; }
 
@@ -46,8 +45,7 @@ class ReadingModel {
   [[nodiscard]] Eigen::MatrixXd secants() const;
 
   /// Fits polynomials to the optics, within four standard uncertainties of the estimates. Samples
-  /// for which one errs by more than that are to be read directly.
-  static constexpr double largest_error_gu = 1e-3;
+  /// for which one errs by 1e-3 GU or more are to be read directly.
   void fit(std::uint64_t seed);
   /// Readings for many values of the inputs, through the polynomials.
   /// @param x  shape (n, set.size()).   @param y  result, shape (n, n_samples).
@@ -61,20 +59,19 @@ class ReadingModel {
  private:
   void of_optics(const Eigen::ArrayXXd& g, const Eigen::ArrayXXd& x,
                  Eigen::Ref<Eigen::ArrayXXd>& y) const;
+  [[nodiscard]] const InputQuantity& optical_input(Eigen::Index parameter) const;
   [[nodiscard]] Eigen::VectorXd optical_part(const Eigen::VectorXd& x) const;
   [[nodiscard]] Eigen::VectorXd estimates() const;
 
-  Instrument instrument_;
   const InputSet& set_;
   GeometryInputs inputs_;
   const std::vector<Sample>& samples_;
-  std::shared_ptr<const OpticalResponse> optics_;
+  OpticalResponse optics_;
   MeasurementEquation equation_;
   std::vector<Eigen::Index> optical_index_ = {};  // place of each parameter of the optics in x
   std::optional<PolynomialSurrogate> surrogate_ = {};
   std::vector<std::size_t> direct_ = {};
-  std::vector<Sample> direct_samples_ = {};
-  std::shared_ptr<const OpticalResponse> direct_optics_ = {};
+  std::vector<OpticalResponse> direct_optics_ = {};  // of each direct sample
 };
 
 }  // namespace gonio
