@@ -7,24 +7,17 @@
 #include "reports/certificate_budget.hpp"
 #include "reports/certificate_report.hpp"
 #include "reports/certificate_words.hpp"
+#include "reports/json_values.hpp"
 
 namespace gonio {
 
 namespace {
 
+using gonio::json_of;  // beside those of this file
 using nlohmann::ordered_json;
-
-/// Null where there is nothing; dump() makes null of what JSON has no number for.
-ordered_json json_of(const std::optional<double>& number) {
-  return number ? ordered_json(*number) : ordered_json(nullptr);
-}
 
 double at_or_nothing(const std::vector<double>& values, std::size_t i) {
   return i < values.size() ? values[i] : std::nan("");
-}
-
-ordered_json json_of(const SourceMark& mark) {
-  return {{"file", mark.file}, {"line", mark.line}, {"column", mark.column}};
 }
 
 ordered_json json_of(const CertificateLimit& limit) {

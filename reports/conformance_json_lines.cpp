@@ -5,21 +5,14 @@
 #include "emulator/core/unit_value.hpp"
 #include "reports/conformance_report.hpp"
 #include "reports/conformance_words.hpp"
+#include "reports/json_values.hpp"
 
 namespace gonio {
 
 namespace {
 
+using gonio::json_of;  // beside those of this file
 using nlohmann::ordered_json;
-
-/// Null where there is nothing, and for what JSON has no number.
-ordered_json json_of(const std::optional<double>& number) {
-  return number ? ordered_json(*number) : ordered_json(nullptr);
-}
-
-ordered_json json_of(const SourceMark& mark) {
-  return {{"file", mark.file}, {"line", mark.line}, {"column", mark.column}};
-}
 
 ordered_json json_of(const LimitRow& limit) {
   ordered_json json{{"quantity", limit.quantity},
