@@ -1,6 +1,7 @@
 # How a target of gonio is built, named and installed.
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
+include(GonioSoci)
 
 option(GONIO_BUILD_TESTS "Build tests and benchmarks" ${PROJECT_IS_TOP_LEVEL})
 option(GONIO_WERROR "Treat warnings as errors" OFF)
@@ -80,5 +81,6 @@ function(gonio_install)
                                 INSTALL_DESTINATION ${package_dir})
   write_basic_package_version_file(gonio-config-version.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${CMAKE_CURRENT_BINARY_DIR}/gonio-config.cmake
-                ${CMAKE_CURRENT_BINARY_DIR}/gonio-config-version.cmake DESTINATION ${package_dir})
+                ${CMAKE_CURRENT_BINARY_DIR}/gonio-config-version.cmake
+                ci/cmake/GonioSoci.cmake DESTINATION ${package_dir})
 endfunction()

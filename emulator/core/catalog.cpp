@@ -45,8 +45,10 @@ void collect(Catalog::Kind kind, const fs::path& root, std::map<std::string, fs:
     }
     return;
   }
-  const fs::path folder =
-      root / "fixtures" / (kind == Catalog::Kind::sample ? "samples" : "instruments");
+  const char* name = kind == Catalog::Kind::sample       ? "samples"
+                     : kind == Catalog::Kind::instrument ? "instruments"
+                                                         : "batches";
+  const fs::path folder = root / "fixtures" / name;
   if (!fs::is_directory(folder)) {
     return;
   }
@@ -67,6 +69,8 @@ std::string noun(Catalog::Kind kind) {
       return "a sample file";
     case Catalog::Kind::instrument:
       return "an instrument file";
+    case Catalog::Kind::batch:
+      return "a batch file";
   }
   return {};
 }

@@ -13,7 +13,7 @@ namespace gonio {
 class Catalog {
  public:
   /// `clauses` is what a standard demands, beside its numbers, or instead of them.
-  enum class Kind { standard, clauses, sample, instrument };
+  enum class Kind { standard, clauses, sample, instrument, batch };
 
   struct Entry {
     std::string id;

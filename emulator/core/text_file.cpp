@@ -7,8 +7,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
+#include <functional>
 #include <iterator>
-#include <memory>
 #include <system_error>
 
 #include "emulator/core/input_error.hpp"
@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr std::uintmax_t largest_input = 16u << 20;
+constexpr std::uintmax_t mib = 1u << 20;
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";  // some editors begin UTF-8 with it
 
 [[noreturn]] void fail(const fs::path& path) {
@@ -42,6 +42,18 @@ bool sync_folder_of(const fs::path& path) {
   return synced;
 }
 
+/// A temporary file, which is gone at the end unless it was renamed.
+struct OpenFile {
+  int descriptor;
+  const std::string& name;
+  ~OpenFile() {
+    const int cause = errno;
+    close(descriptor);
+    unlink(name.c_str());
+    errno = cause;
+  }
+};
+
 }  // namespace
 
 std::string what_stands_at(const fs::path& path) {
@@ -56,13 +68,13 @@ std::string what_stands_at(const fs::path& path) {
   return fs::exists(status) ? "something else" : "nothing";
 }
 
-std::string read_text_file(const fs::path& path) {
+std::string read_text_file(const fs::path& path, int largest_mib) {
   const SourceMark mark{.file = path.string(), .line = 0, .column = 0, .key = {}};
   if (const std::string there = what_stands_at(path); there != "a file") {
     throw InputError(mark, "a file", there);
   }
-  if (fs::file_size(path) > largest_input) {
-    throw InputError(mark, "a file of at most 16 MiB",
+  if (fs::file_size(path) > std::uintmax_t(largest_mib) * mib) {
+    throw InputError(mark, "a file of at most " + std::to_string(largest_mib) + " MiB",
                      std::to_string(fs::file_size(path)) + " bytes");
   }
   std::ifstream in(path, std::ios::binary);
@@ -79,26 +91,25 @@ std::string read_text_file(const fs::path& path) {
   return text;
 }
 
-void write_text_file(const fs::path& path, std::string_view text) {
+void write_file(const fs::path& path, const std::function<void(std::ostream&)>& write) {
   std::string temporary = path.string() + ".XXXXXX";
   const int descriptor = mkstemp(temporary.data());
   if (descriptor < 0) {
     fail(path);
   }
-  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(fdopen(descriptor, "wb"), std::fclose);
-  const bool written = std::fwrite(text.data(), 1, text.size(), file.get()) == text.size() &&
-                       std::fflush(file.get()) == 0 && fsync(descriptor) == 0 &&
-                       fchmod(descriptor, 0644) == 0 &&
-                       std::rename(temporary.c_str(), path.c_str()) == 0;
+  const OpenFile file{descriptor, temporary};
+  std::ofstream out(temporary, std::ios::binary);
+  write(out);
+  const bool written = out.flush() && fsync(descriptor) == 0 && fchmod(descriptor, 0644) == 0 &&
+                       std::rename(temporary.c_str(), path.c_str()) == 0 && sync_folder_of(path);
   if (!written) {
-    const int cause = errno;
-    unlink(temporary.c_str());
-    errno = cause;
     fail(path);
   }
-  if (!sync_folder_of(path)) {
-    fail(path);
-  }
+}
+
+void write_text_file(const fs::path& path, std::string_view text) {
+  write_file(path,
+             [&](std::ostream& out) { out.write(text.data(), std::streamsize(text.size())); });
 }
 
 }  // namespace gonio

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 
@@ -10,13 +12,15 @@ namespace gonio {
 [[nodiscard]] std::string what_stands_at(const std::filesystem::path& path);
 
 /// The text of an input file, without a byte order mark.
-/// @throws InputError  if it is missing, not a regular file, empty, or larger than 16 MiB.
-[[nodiscard]] std::string read_text_file(const std::filesystem::path& path);
+/// @throws InputError  if it is missing, not a regular file, empty, or larger than that.
+[[nodiscard]] std::string read_text_file(const std::filesystem::path& path, int largest_mib = 16);
 
 /// Writes a file whole or not at all: a temporary file beside it, then a rename. When it returns
 /// the file survives a power failure, as far as the file system can promise that.
 /// @throws std::system_error  with the path, if that fails; an older file is then unchanged, or
-///                            replaced whole.
+///                            replaced whole. So it is for whatever `write` throws.
+void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);
+/// The same for a text at hand.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace gonio

@@ -10,8 +10,8 @@
 #include "emulator/instrument/behaviour.hpp"
 #include "emulator/instrument/device_time.hpp"
 #include "emulator/instrument/measuring_head.hpp"
-#include "emulator/instrument/running_statistics.hpp"
 #include "emulator/instrument/settings.hpp"
+#include "emulator/statistics/running_statistics.hpp"
 
 namespace gonio {
 

@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "emulator/instrument/running_statistics.hpp"
+#include "emulator/statistics/running_statistics.hpp"
 #include "emulator/instrument/signal.hpp"
 
 namespace gonio {

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <optional>
 #include <string>
+
+#include "emulator/core/interval.hpp"
 
 namespace gonio {
 
@@ -22,11 +23,6 @@ enum class DecisionRule {
   simple    ///< the value alone decides; U is shown
 };
 [[nodiscard]] std::string decision_rule_words(DecisionRule rule);
-
-/// The limits on one quantity, in its unit; nothing where there is none on that side.
-struct Interval {
-  std::optional<double> low = {}, high = {};
-};
 
 /// @param expanded_uncertainty  of `value`, k = 2, >= 0, in its unit.
 [[nodiscard]] ConformanceVerdict decide(double value, double expanded_uncertainty,

@@ -134,6 +134,18 @@ TEST(CatalogList, TakesOnlyYamlFiles) {
   EXPECT_EQ(ids_of(Catalog({root}), Kind::sample), std::vector<std::string>{"a"});
 }
 
+TEST(Catalog, HasAFolderForEachKind) {
+  const TemporaryFolder folder;
+  const fs::path root = make_root(folder.path() / "root", {});
+  for (const char* name : {"instruments", "batches"}) {
+    fs::create_directories(root / "fixtures" / name);
+    std::ofstream(root / "fixtures" / name / (std::string("of_") + name + ".yaml")) << "text";
+  }
+  EXPECT_EQ(ids_of(Catalog({root}), Kind::instrument), std::vector<std::string>{"of_instruments"});
+  EXPECT_EQ(ids_of(Catalog({root}), Kind::batch), std::vector<std::string>{"of_batches"});
+  EXPECT_TRUE(ids_of(Catalog({root}), Kind::sample).empty());
+}
+
 TEST(CatalogList, FindsStandardsByFamilyAndEdition) {
   const TemporaryFolder folder;
   const fs::path root = make_root(folder.path() / "root", {});

@@ -70,6 +70,7 @@ TEST(ReadTextFile, RefusesAFileOfMoreThan16MiB) {
   fs::resize_file(path, (16u << 20) + 1);
   EXPECT_EQ(message_of([&] { (void)read_text_file(path); }),
             path.string() + ": expected a file of at most 16 MiB, found '16777217 bytes'");
+  EXPECT_EQ(read_text_file(path, 17).size(), (16u << 20) + 1);
 }
 
 TEST(WriteTextFile, ReplacesAnOlderFileAndLeavesNothingElseBehind) {

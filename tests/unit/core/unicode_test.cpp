@@ -42,5 +42,36 @@ TEST(FindBadText, PlacesControlCharacters) {
   EXPECT_EQ(bad_text_in("a\u009b"), "1: the control character U+009B");
 }
 
+TEST(Utf8FromUtf16, ConvertsCharactersOfOneAndTwoUnits) {
+  EXPECT_EQ(utf8_from_utf16("a\0\xe9\0\x22\x04"sv), "a\u00e9\u0422");
+  EXPECT_EQ(utf8_from_utf16("\xac\x20\xff\xd7\0\xe0"sv), "\u20ac\ud7ff\ue000");
+  EXPECT_EQ(utf8_from_utf16("\0\xd8\0\xdc\xff\xdb\xff\xdf"sv), "\U00010000\U0010ffff");
+  EXPECT_EQ(utf8_from_utf16(""), "");
+}
+
+TEST(Utf8FromUtf16, RefusesHalves) {
+  EXPECT_FALSE(utf8_from_utf16("a\0b"sv));    // of a unit
+  EXPECT_FALSE(utf8_from_utf16("\0\xd8"sv));  // of a pair, at the end
+  EXPECT_FALSE(
+      utf8_from_utf16("\0\xd8"
+                      "a\0"sv));  // of a pair, then another character
+  EXPECT_FALSE(
+      utf8_from_utf16("\0\xdc"
+                      "a\0"sv));  // the second of a pair
+  EXPECT_FALSE(utf8_from_utf16("\0\xd8\0"sv));
+}
+
+TEST(PlaceInText, CountsLinesAndCharacters) {
+  const auto place = [](std::string_view text, std::size_t position) {
+    const TextPlace found = place_in_text(text, position);
+    return std::to_string(found.line) + ":" + std::to_string(found.column);
+  };
+  EXPECT_EQ(place("ab", 0), "1:1");
+  EXPECT_EQ(place("ab", 2), "1:3");
+  EXPECT_EQ(place("a\nbc\nd", 4), "2:3");
+  EXPECT_EQ(place("a\nbc\nd", 5), "3:1");
+  EXPECT_EQ(place("\u0422\u0438x", 4), "1:3");
+}
+
 }  // namespace
 }  // namespace gonio

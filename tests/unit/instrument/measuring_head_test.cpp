@@ -6,8 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "emulator/instrument/running_statistics.hpp"
 #include "emulator/instrument/signal.hpp"
+#include "emulator/statistics/running_statistics.hpp"
 #include "tests/unit/expect_close.hpp"
 #include "tests/unit/instrument/test_device.hpp"
 

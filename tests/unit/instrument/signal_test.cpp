@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "emulator/instrument/running_statistics.hpp"
+#include "emulator/statistics/running_statistics.hpp"
 #include "tests/unit/expect_close.hpp"
 
 namespace gonio {

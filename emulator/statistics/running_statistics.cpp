@@ -1,4 +1,4 @@
-#include "emulator/instrument/running_statistics.hpp"
+#include "emulator/statistics/running_statistics.hpp"
 
 #include <algorithm>
 #include <cmath>
