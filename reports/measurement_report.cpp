@@ -67,6 +67,15 @@ ordered_json colour_json(const ReflectedColour& colour) {
           {"y", colour.xy.y},  {"L", colour.lab.L}, {"a", colour.lab.a}, {"b", colour.lab.b}};
 }
 
+ordered_json spot_json(const SpotOnPanel& on_panel) {
+  ordered_json json{{"length_mm", 2.0 * on_panel.spot.half_length_mm},
+                    {"width_mm", 2.0 * on_panel.spot.half_width_mm}};
+  for (const auto& [id, share] : on_panel.regions) {
+    json["regions"].push_back({{"id", id}, {"share", share}});
+  }
+  return json;
+}
+
 ordered_json geometry_json(const MeasurementHeader& header, const GeometryResult& result) {
   ordered_json json{{"id", result.id},
                     {"theta_i_deg", degrees_for_output(result.theta_i)},
@@ -75,6 +84,9 @@ ordered_json geometry_json(const MeasurementHeader& header, const GeometryResult
                     {"luminous_reflectance", result.reading.luminous_reflectance},
                     {"evidence", result.evidence.level}};
   json["colour"] = result.colour ? colour_json(*result.colour) : ordered_json(nullptr);
+  if (result.spot) {
+    json["spot"] = spot_json(*result.spot);
+  }
   json["spectrum"] = {{"wavelength_nm", to_vector(header.grid.nanometres())},
                       {"reflectance", to_vector(result.reading.reflectance)}};
   return json;
@@ -88,6 +100,9 @@ ordered_json measurement_object(const MeasurementHeader& header, const Measureme
   json["selected_geometry"] = measurement.selected_geometry
                                   ? ordered_json(*measurement.selected_geometry)
                                   : ordered_json(nullptr);
+  if (measurement.position) {
+    json["position"] = {{"x_mm", measurement.position->x_mm}, {"y_mm", measurement.position->y_mm}};
+  }
   json["geometries"] = ordered_json::array();
   for (const GeometryResult& result : measurement.geometries) {
     json["geometries"].push_back(geometry_json(header, result));

@@ -27,6 +27,32 @@ std::string reported_text(double gloss, const Standard& standard) {
   return fixed_text(reported_value(gloss, standard), decimals);
 }
 
+namespace {
+
+/// What each geometry measured of a panel, a line for each.
+void append_spot_notes(const Measurement& measurement, std::vector<std::string>& notes) {
+  for (const GeometryResult& result : measurement.geometries) {
+    if (!result.spot) {
+      continue;
+    }
+    const auto& [spot, regions] = *result.spot;
+    std::vector<std::string> parts;
+    for (const auto& [id, share] : regions) {
+      parts.push_back(fmt::format("{} {} %", id, fixed_text(100.0 * share, 1)));
+    }
+    const std::string extent =
+        spot.half_length_mm > 0.0 && spot.half_width_mm > 0.0
+            ? fmt::format("a spot of {} mm x {} mm", fixed_text(2.0 * spot.half_length_mm, 1),
+                          fixed_text(2.0 * spot.half_width_mm, 1))
+            : std::string("a point");
+    notes.push_back(fmt::format("{}: {} at {:g} mm, {:g} mm: {}{}{}", measurement.sample, result.id,
+                                spot.x_mm, spot.y_mm, extent, parts.empty() ? "" : ": ",
+                                fmt::join(parts, ", ")));
+  }
+}
+
+}  // namespace
+
 std::vector<std::string> sample_notes(const MeasurementHeader& header,
                                       const std::vector<Measurement>& measurements) {
   std::vector<std::string> notes;
@@ -36,6 +62,7 @@ std::vector<std::string> sample_notes(const MeasurementHeader& header,
       notes.push_back(fmt::format("{}: the standard selects geometry {}, which was not asked for",
                                   measurement.sample, *selected));
     }
+    append_spot_notes(measurement, notes);
     for (const HazeResult& haze : measurement.haze) {
       notes.push_back(fmt::format(
           "{}: {} {}", measurement.sample, haze.id,

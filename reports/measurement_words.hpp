@@ -13,7 +13,8 @@ namespace gonio {
 [[nodiscard]] std::string fixed_text(double value, int decimals);
 /// The value as the standard has it reported, e.g. to the nearest unit.
 [[nodiscard]] std::string reported_text(double gloss, const Standard& standard);
-/// What a reader must know of single samples: selected geometries that were not measured, haze.
+/// What a reader must know of single samples: selected geometries that were not measured, what
+/// spots covered of a panel, haze.
 [[nodiscard]] std::vector<std::string> sample_notes(const MeasurementHeader& header,
                                                     const std::vector<Measurement>& measurements);
 /// Which geometries rest on numbers from memory; empty if none does.

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <memory>
 #include <stdexcept>
 
@@ -30,6 +31,7 @@ struct Options {
   std::optional<int> patches;
   double tolerance = MeasureOptions{}.tolerance;
   std::string tilt = "0 deg";
+  std::optional<std::string> position;
   std::optional<std::string> reference_glass;
   std::string wavelengths = "380:780:5";
   std::string format = "text";
@@ -62,6 +64,27 @@ Angle parse_tilt(const std::string& text) {
         "--tilt: expected an angle (deg, rad, mrad) in [-45, 45] deg, found '{}'", text));
   }
   return radians(*radian);
+}
+
+/// `X, Y`, two lengths.
+std::optional<PanelPosition> parse_position(const std::optional<std::string>& text) {
+  if (!text) {
+    return std::nullopt;
+  }
+  constexpr double per_nanometre = 1e-6;
+  std::vector<double> place_mm;
+  for (const std::string& part : CLI::detail::split(*text, ',')) {
+    const auto length = parse_quantity(CLI::detail::trim_copy(part), Dimension::length);
+    if (!length) {
+      break;
+    }
+    place_mm.push_back(*length * per_nanometre);
+  }
+  if (place_mm.size() != 2 || std::count(text->begin(), text->end(), ',') != 1) {
+    throw std::invalid_argument(fmt::format(
+        "--position: expected two lengths (nm, um, mm), e.g. '75 mm, 50 mm', found '{}'", *text));
+  }
+  return PanelPosition{.x_mm = place_mm[0], .y_mm = place_mm[1]};
 }
 
 std::shared_ptr<const FluxIntegrator> make_integrator(const Options& options) {
@@ -161,7 +184,8 @@ void run(const Options& options, const CommonOptions& common) {
   const WavelengthGrid grid = parse_wavelengths(options.wavelengths);
   const MeasureOptions measure_options{.geometries = options.geometries,
                                        .tolerance = options.tolerance,
-                                       .tilt = parse_tilt(options.tilt)};
+                                       .tilt = parse_tilt(options.tilt),
+                                       .position = parse_position(options.position)};
   const Instrument instrument = make_instrument(options, catalog);
   const Glossmeter glossmeter(instrument, grid, make_integrator(options),
                               reference_index(options, instrument.standard, grid));
@@ -224,6 +248,8 @@ void add_measure_command(CLI::App& program, const CommonOptions& common) {
       ->capture_default_str();
   command->add_option("--tilt", options->tilt, "Of the sample in the plane of measurement")
       ->capture_default_str();
+  command->add_option("--position", options->position,
+                      "Of the measuring spot on a panel, 'X mm, Y mm'; its centre if not given");
   command->add_option("--reference-glass", options->reference_glass,
                       "Refractive index file of a dispersive reference, which then reads 100");
   command->add_option("--wavelengths", options->wavelengths, "first:last:step in nm")

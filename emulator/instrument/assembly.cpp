@@ -29,6 +29,17 @@ StatedSetup stated_setup(const Instrument& instrument, const std::string& geomet
   return setup;
 }
 
+/// What one geometry sees of a sample: of a panel, what its spot covers in the middle.
+Surface surface_seen(const Sample& sample, const Instrument& instrument,
+                     const std::string& geometry_id) {
+  if (!sample.panel) {
+    return sample.surface;
+  }
+  const PanelLayout& panel = *sample.panel->layout;
+  const Spot spot = instrument.spot(geometry_id, 0.5 * panel.length_mm, 0.5 * panel.width_mm);
+  return sample.panel->mixed(shares(panel, spot));
+}
+
 }  // namespace
 
 Device assemble_device(const Glossmeter& glossmeter, Behaviour behaviour,
@@ -49,8 +60,10 @@ Device assemble_device(const Glossmeter& glossmeter, Behaviour behaviour,
   for (const Sample& sample : samples) {
     DeviceSample laid{.id = sample.id, .title = sample.title, .gloss_gu = {}};
     for (const Channel& channel : channels) {
-      laid.gloss_gu.push_back(
-          glossmeter.read(sample.surface, channel.geometry_id, tolerance, sample.tilt).gloss);
+      laid.gloss_gu.push_back(glossmeter
+                                  .read(surface_seen(sample, instrument, channel.geometry_id),
+                                        channel.geometry_id, tolerance, sample.tilt)
+                                  .gloss);
     }
     laid_out.push_back(std::move(laid));
   }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
+#include <cmath>
 #include <limits>
 
 namespace gonio {
@@ -252,6 +253,18 @@ Behaviour read_behaviour(const YamlNode& node, const std::vector<std::string>& g
     });
     return behaviour;
   });
+}
+
+double displayed(double value, double resolution) {
+  if (resolution <= 0.0) {
+    return value;
+  }
+  const double steps = std::round(value / resolution);
+  // Tenths of a step that is no binary fraction: 519 / 10 is 51.9, 519 * 0.1 is not.
+  const double per_unit = std::round(1.0 / resolution);
+  const bool divides = per_unit >= 1.0 && std::abs(per_unit * resolution - 1.0) < 1e-12;
+  // The zero that is added turns a rounded -0 into 0.
+  return (divides ? steps / per_unit : steps * resolution) + 0.0;
 }
 
 }  // namespace gonio

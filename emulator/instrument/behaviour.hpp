@@ -85,6 +85,10 @@ struct Behaviour {
   bool operator==(const Behaviour&) const = default;
 };
 
+/// A value as a display of that resolution shows it: the decimal fraction that is nearest.
+/// @param resolution  step of the display, >= 0; 0: none.
+[[nodiscard]] double displayed(double value, double resolution);
+
 /// Reads the map `identity` of an instrument file. What is not stated keeps its default.
 /// @throws InputError  for anything that is not as the schema says.
 [[nodiscard]] Identity read_identity(const YamlNode& node);

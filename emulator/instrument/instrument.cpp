@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <set>
 #include <stdexcept>
@@ -76,14 +77,31 @@ Aperture build(const Frame& frame, const ApertureLimits& limits, const OpeningAs
 
 }  // namespace
 
-MeasuringGeometry Instrument::geometry(const std::string& geometry_id) const {
+Angle Instrument::angle_of_incidence(const std::string& geometry_id) const {
   if (!has(geometry_id)) {
     throw std::out_of_range(fmt::format("Instrument::geometry: {} has no '{}'", id, geometry_id));
   }
+  const auto found = as_built.find(geometry_id);
+  return found != as_built.end() && found->second.theta_i
+             ? found->second.theta_i->value
+             : standard.geometry(geometry_id).theta_i.nominal;
+}
+
+Spot Instrument::spot(const std::string& geometry_id, double x_mm, double y_mm) const {
+  const double cos_theta_i = std::cos(angle_of_incidence(geometry_id).radians());
+  const auto found = beam.find(geometry_id);
+  const BeamSection section = found == beam.end() ? BeamSection{} : found->second;
+  return {.x_mm = x_mm,
+          .y_mm = y_mm,
+          .half_length_mm = 0.5 * section.in_plane_mm / cos_theta_i,
+          .half_width_mm = 0.5 * section.perpendicular_mm};
+}
+
+MeasuringGeometry Instrument::geometry(const std::string& geometry_id) const {
+  const Angle theta_i = angle_of_incidence(geometry_id);
   const GeometryLimits& limits = standard.geometry(geometry_id);
   const auto found = as_built.find(geometry_id);
   const GeometryAsBuilt built = found == as_built.end() ? GeometryAsBuilt{} : found->second;
-  const Angle theta_i = built.theta_i ? built.theta_i->value : limits.theta_i.nominal;
   const Angle theta_r = built.theta_r ? built.theta_r->value : limits.receptor_angle();
   return {.source = build(source_frame(theta_i), limits.source, built.source),
           .receptor = build(receptor_frame(theta_r), limits.receptor, built.receptor)};

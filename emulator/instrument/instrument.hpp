@@ -14,6 +14,7 @@
 #include "emulator/instrument/uncertainty_statement.hpp"
 #include "emulator/integration/aperture.hpp"
 #include "emulator/standard/standard.hpp"
+#include "emulator/surface/spot.hpp"
 
 namespace gonio {
 
@@ -47,6 +48,13 @@ struct GeometryAsBuilt {
   SourceMark mark = {};
 };
 
+/// The beam that lights a sample, across its direction: what it lights is an ellipse.
+struct BeamSection {
+  double in_plane_mm = 0.0, perpendicular_mm = 0.0;  ///< full axes
+
+  bool operator==(const BeamSection&) const = default;
+};
+
 /// An instrument: the standard it was built to, and how it deviates from it.
 struct Instrument {
   std::filesystem::path file;  ///< empty for the nominal instrument of a standard
@@ -60,6 +68,8 @@ struct Instrument {
   /// By id: how much source and receptor together favour light polarised perpendicular to the plane
   /// of measurement, the P of `polarised`; 0 for a geometry that is not named.
   std::map<std::string, double> polarization = {};
+  /// By id; a geometry that is not named measures at a point.
+  std::map<std::string, BeamSection> beam = {};
   std::optional<UncertaintyStatement> uncertainty = {};
   SpectralTable source;  ///< spectral power distribution
   SpectralTable responsivity;
@@ -75,6 +85,13 @@ struct Instrument {
   /// @throws InputError         if the standard leaves a size unknown that is not stated as built.
   /// @throws std::out_of_range  if the instrument has no such geometry.
   [[nodiscard]] MeasuringGeometry geometry(const std::string& geometry_id) const;
+  /// Of one geometry, as built.
+  /// @throws std::out_of_range  if the instrument has no such geometry.
+  [[nodiscard]] Angle angle_of_incidence(const std::string& geometry_id) const;
+  /// What one geometry measures of a flat sample that it stands on at a place [mm]: the beam,
+  /// longer by 1 / cos theta_i in the plane of measurement.
+  /// @throws std::out_of_range  if the instrument has no such geometry.
+  [[nodiscard]] Spot spot(const std::string& geometry_id, double x_mm, double y_mm) const;
 };
 
 /// The instrument that has the nominal values of a standard.

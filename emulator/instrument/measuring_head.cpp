@@ -7,8 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "emulator/statistics/running_statistics.hpp"
 #include "emulator/instrument/signal.hpp"
+#include "emulator/statistics/running_statistics.hpp"
 
 namespace gonio {
 
@@ -105,11 +105,8 @@ ChannelValue MeasuringHead::shown(std::size_t channel, double signal_gu) const {
     return last_[channel];
   }
   const Calibration& calibration = calibrations_[channel];
-  double gloss_gu = calibration.gain * (signal_gu - calibration.zero_gu);
-  if (behaviour_.resolution_gu > 0.0) {
-    // The zero that is added turns a rounded -0 into 0.
-    gloss_gu = std::round(gloss_gu / behaviour_.resolution_gu) * behaviour_.resolution_gu + 0.0;
-  }
+  const double gloss_gu =
+      displayed(calibration.gain * (signal_gu - calibration.zero_gu), behaviour_.resolution_gu);
   const bool is_beyond_scale =
       !behaviour_.full_scale_gu.empty() && gloss_gu > behaviour_.full_scale_gu[channel];
   if (is_beyond_scale || is_on(InstrumentFault::over_range)) {

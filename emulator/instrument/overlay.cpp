@@ -106,6 +106,40 @@ void read_polarization(const YamlNode& node, Instrument& instrument) {
   });
 }
 
+/// `{diameter: 9 mm}`, or `{in_plane: 9 mm, perpendicular: 12 mm}`.
+BeamSection read_beam_section(const YamlNode& node) {
+  const auto millimetres = [](const YamlNode& size) {
+    constexpr double per_nanometre = 1e-6;
+    return size.length(Range::positive()).nanometres() * per_nanometre;
+  };
+  return node.read_map([&](YamlMap& map) {
+    if (const auto diameter = map.optional("diameter")) {
+      const double both = millimetres(*diameter);
+      return BeamSection{.in_plane_mm = both, .perpendicular_mm = both};
+    }
+    return BeamSection{.in_plane_mm = millimetres(map.required("in_plane")),
+                       .perpendicular_mm = millimetres(map.required("perpendicular"))};
+  });
+}
+
+/// One beam for all geometries, or one by geometry.
+void read_spot(const YamlNode& node, Instrument& instrument) {
+  bool by_geometry = false;
+  node.for_each_entry([&](const std::string&, const YamlNode& value) {
+    by_geometry = by_geometry || value.is_map();
+  });
+  if (!by_geometry) {
+    for (const std::string& id : instrument.geometries) {
+      instrument.beam[id] = read_beam_section(node);
+    }
+    return;
+  }
+  node.for_each_entry([&](const std::string& id, const YamlNode& value) {
+    expect_geometry(instrument, id, value);
+    instrument.beam[id] = read_beam_section(value);
+  });
+}
+
 std::vector<std::filesystem::path> read_samples(const YamlNode& node, const Catalog& catalog) {
   std::vector<std::filesystem::path> files;
   for (const YamlNode& item : node.list()) {
@@ -129,6 +163,9 @@ void read_optics(YamlMap& map, Instrument& instrument) {
   }
   if (const auto polarization = map.optional("polarization")) {
     read_polarization(*polarization, instrument);
+  }
+  if (const auto spot = map.optional("spot")) {
+    read_spot(*spot, instrument);
   }
   if (const auto source = map.optional("source_spectrum")) {
     instrument.source = SpectralTable::load(*source);

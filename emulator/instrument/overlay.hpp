@@ -7,9 +7,9 @@
 namespace gonio {
 
 /// The same instrument with deviations laid over it: the keys `as_built`, `setup_uncertainty`,
-/// `uncertainty`, `polarization`, `source_spectrum`, `responsivity`, `repeatability`, `behaviour`
-/// and `samples` of an instrument file. What the overlay states takes the place of what was there,
-/// number by number (a list or a spectrum as a whole); the rest stays.
+/// `uncertainty`, `polarization`, `spot`, `source_spectrum`, `responsivity`, `repeatability`,
+/// `behaviour` and `samples` of an instrument file. What the overlay states takes the place of what
+/// was there, number by number (a list or a spectrum as a whole); the rest stays.
 /// @param overlay  a map; files in it are relative to its own file.
 /// @param catalog  where `samples` are looked up.
 /// @throws InputError  at the place in the overlay's file for anything that is not as the schema

@@ -46,6 +46,70 @@ std::optional<ReflectedColour> reflected_colour(const GlossReading& reading,
                          .lab = cielab(xyz, white_point(glossmeter.source(), observer))};
 }
 
+/// Where to measure a sample; nothing if it states no panel.
+std::optional<PanelPosition> position_on(const Sample& sample, const MeasureOptions& options) {
+  if (!sample.panel && options.position) {
+    throw std::invalid_argument(fmt::format(
+        "{}: a position needs a sample whose file states 'panel:', this one is the same everywhere",
+        sample.id));
+  }
+  if (!sample.panel) {
+    return std::nullopt;
+  }
+  const PanelLayout& layout = *sample.panel->layout;
+  return options.position.value_or(
+      PanelPosition{.x_mm = 0.5 * layout.length_mm, .y_mm = 0.5 * layout.width_mm});
+}
+
+Spot spot_on(const Sample& sample, const Instrument& instrument, const std::string& geometry_id,
+             const PanelPosition& position) {
+  const PanelLayout& layout = *sample.panel->layout;
+  const Spot spot = instrument.spot(geometry_id, position.x_mm, position.y_mm);
+  if (!layout.carries(spot)) {
+    throw std::invalid_argument(fmt::format(
+        "{}: the spot of geometry {}, {:.3g} mm x {:.3g} mm at {:g} mm, {:g} mm, hangs over the "
+        "edge of the panel of {:g} mm x {:g} mm",
+        sample.id, geometry_id, 2.0 * spot.half_length_mm, 2.0 * spot.half_width_mm, spot.x_mm,
+        spot.y_mm, layout.length_mm, layout.width_mm));
+  }
+  return spot;
+}
+
+SpotOnPanel spot_on_panel(const Spot& spot, const std::vector<SpotShare>& shares,
+                          const PanelLayout& layout) {
+  SpotOnPanel result{.spot = spot};
+  if (layout.regions.size() == 1) {
+    return result;
+  }
+  for (std::size_t region = 0; region < layout.regions.size(); ++region) {
+    double share = 0.0;
+    for (const SpotShare& part : shares) {
+      share += part.region == region ? part.weight : 0.0;
+    }
+    if (share > 0.0) {
+      result.regions.push_back({.id = layout.regions[region].id, .share = share});
+    }
+  }
+  return result;
+}
+
+/// What one geometry measures: the sample's surface, or that of what its spot covers.
+struct Seen {
+  Surface surface;
+  std::optional<SpotOnPanel> spot = {};
+};
+
+Seen seen_by(const std::string& geometry_id, const Sample& sample, const Instrument& instrument,
+             const std::optional<PanelPosition>& position) {
+  if (!position) {
+    return {.surface = sample.surface};
+  }
+  const Spot spot = spot_on(sample, instrument, geometry_id, *position);
+  const std::vector<SpotShare> parts = shares(*sample.panel->layout, spot);
+  return {.surface = sample.panel->mixed(parts),
+          .spot = spot_on_panel(spot, parts, *sample.panel->layout)};
+}
+
 }  // namespace
 
 const GeometryResult* Measurement::find(const std::string& geometry_id) const {
@@ -61,17 +125,20 @@ Measurement measure(const Sample& sample, const Glossmeter& glossmeter, const Ob
                     const MeasureOptions& options) {
   const Standard& standard = glossmeter.instrument().standard;
   Measurement measurement{.sample = sample.id, .sample_title = sample.title};
+  measurement.position = position_on(sample, options);
   std::map<std::string, double> gloss;
   for (const std::string& id : geometries_asked_for(glossmeter.instrument(), options)) {
     const GeometryLimits& limits = standard.geometry(id);
+    const Seen seen = seen_by(id, sample, glossmeter.instrument(), measurement.position);
     const GlossReading reading =
-        glossmeter.read(sample.surface, id, options.tolerance, sample.tilt + options.tilt);
+        glossmeter.read(seen.surface, id, options.tolerance, sample.tilt + options.tilt);
     gloss.emplace(id, reading.gloss);
     measurement.geometries.push_back({.id = id,
                                       .theta_i = limits.theta_i.nominal,
                                       .reading = reading,
                                       .colour = reflected_colour(reading, glossmeter, observer),
-                                      .evidence = limits.evidence()});
+                                      .evidence = limits.evidence(),
+                                      .spot = seen.spot});
   }
   measurement.selected_geometry = standard.select_geometry(gloss);
   for (const HazeRule& rule : standard.haze) {

@@ -13,11 +13,22 @@
 
 namespace gonio {
 
+/// Where an instrument stands on a panel: the middle of what it measures, from the origin of the
+/// panel.
+struct PanelPosition {
+  double x_mm = 0.0;  ///< along the plane of measurement
+  double y_mm = 0.0;  ///< across it
+
+  bool operator==(const PanelPosition&) const = default;
+};
+
 /// How a measurement is done.
 struct MeasureOptions {
   std::vector<std::string> geometries = {};  ///< ids, each measured once; empty for all it has
   double tolerance = 1e-4;                   ///< of the integrator, in the unit of the scale
   Angle tilt = {};                           ///< in the plane of measurement, added to the sample's
+  /// Nothing: the centre of a panel. Of no meaning for a sample without one.
+  std::optional<PanelPosition> position = {};
 };
 
 /// The colour of the reflected light under the instrument's source, for the 2 deg observer of 1931;
@@ -28,12 +39,23 @@ struct ReflectedColour {
   Lab lab;
 };
 
+/// What was measured of a panel.
+struct SpotOnPanel {
+  struct RegionShare {
+    std::string id;
+    double share = 0.0;  ///< of the spot
+  };
+  Spot spot;
+  std::vector<RegionShare> regions = {};  ///< those that it covers; empty if there is but one
+};
+
 struct GeometryResult {
   std::string id;
   Angle theta_i;  ///< nominal
   GlossReading reading;
   std::optional<ReflectedColour> colour;  ///< nothing where no light arrives
   Evidence evidence;                      ///< weakest of the numbers that the geometry rests on
+  std::optional<SpotOnPanel> spot = {};   ///< of a sample with a panel
 };
 
 /// A sample measured by the procedure of a standard.
@@ -43,14 +65,16 @@ struct Measurement {
   std::vector<GeometryResult> geometries = {};
   std::optional<std::string> selected_geometry = {};
   std::vector<HazeResult> haze = {};
+  std::optional<PanelPosition> position = {};  ///< of a sample with a panel
 
   /// @return  the result of a geometry, or null.
   [[nodiscard]] const GeometryResult* find(const std::string& geometry_id) const;
 };
 
-/// Measures a sample in the geometries asked for.
+/// Measures a sample in the geometries asked for; of a panel, what each of their spots covers.
 /// @throws InputError             for an aperture of unknown size.
-/// @throws std::invalid_argument  for a geometry that the instrument does not have.
+/// @throws std::invalid_argument  for a geometry that the instrument does not have, a position on a
+///                                sample that is no panel, or a spot that hangs over its edge.
 [[nodiscard]] Measurement measure(const Sample& sample, const Glossmeter& glossmeter,
                                   const Observer& observer, const MeasureOptions& options);
 

@@ -197,8 +197,9 @@ void PolynomialSurrogate::evaluate(const ArrayXXd& x, ArrayXXd& y) const {
         "PolynomialSurrogate::evaluate: {} parameters expected, are {}", centre_.size(), x.cols()));
   }
   y.resize(x.rows(), coefficients_.cols());
-  MatrixXd t(block_rows, Index(free_.size()));
-  MatrixXd m(block_rows, coefficients_.rows());
+  const Index most = std::min(block_rows, x.rows());
+  MatrixXd t(most, Index(free_.size()));
+  MatrixXd m(most, coefficients_.rows());
   for (Index begin = 0; begin < x.rows(); begin += block_rows) {
     const Index n = std::min(block_rows, x.rows() - begin);
     for (std::size_t d = 0; d < free_.size(); ++d) {

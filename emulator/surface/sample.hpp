@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "emulator/core/angle.hpp"
 #include "emulator/core/wavelength_grid.hpp"
+#include "emulator/surface/panel_surface.hpp"
 #include "emulator/surface/surface.hpp"
 
 namespace gonio {
@@ -15,9 +17,11 @@ struct Sample {
   std::string id = {};
   std::string title = {};
   std::string notes = {};
-  Surface surface;
+  Surface surface;  ///< of a panel that is not the same everywhere: its mean over the panel
   /// In the plane of measurement, towards the receptor: the wedge that it lies on.
   Angle tilt = {};
+  /// What lies where; nothing if the file states no panel.
+  std::optional<PanelSurface> panel = {};
 };
 
 /// Reads a file of schema gonio/sample/1.

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "tests/unit/message_of.hpp"
 
 namespace gonio {
@@ -261,4 +263,15 @@ TEST(IdealBehaviour, HasNoDeviationsAndTakesNoTime) {
 }
 
 }  // namespace
+TEST(Displayed, IsTheNearestDecimalFractionOfTheDisplay) {
+  EXPECT_EQ(displayed(51.93, 0.1), 51.9);
+  EXPECT_EQ(displayed(51.96, 0.1), 52.0);
+  EXPECT_EQ(displayed(50.3, 0.5), 50.5);
+  EXPECT_EQ(displayed(50.3, 2.0), 50.0);
+  EXPECT_EQ(displayed(0.123456, 0.001), 0.123);
+  EXPECT_EQ(displayed(51.93, 0.0), 51.93);
+}
+
+TEST(Displayed, HasNoNegativeZero) { EXPECT_FALSE(std::signbit(displayed(-0.04, 0.1))); }
+
 }  // namespace gonio

@@ -263,7 +263,7 @@ TEST(InstrumentErrors, OfKeys) {
             ":5:1: colour: expected one of the keys as_built, behaviour, built_to, geometries, id, "
             "identity, notes, polarization, repeatability, responsivity, samples, schema, "
             "setup_uncertainty, "
-            "source_spectrum, title, uncertainty, wire, found 'colour'");
+            "source_spectrum, spot, title, uncertainty, wire, found 'colour'");
   EXPECT_EQ(error_of(instrument_text("as_built:\n  \"60\": {colour: 3 deg}\n")),
             ":6:10: as_built.60.colour: expected one of the keys receptor, source, theta_i, "
             "theta_r, found 'colour'");
@@ -307,6 +307,30 @@ TEST(InstrumentErrors, OfAStandardThatIsNotThereNameItsPlaceInTheFile) {
 TEST(InstrumentErrors, OfASpectrumThatIsNotThere) {
   EXPECT_THAT(error_of(instrument_text("source_spectrum: {file: lamp.csv}\n")),
               testing::HasSubstr("lamp.csv"));
+}
+
+TEST(InstrumentSpot, IsTheBeamMadeLongerByTheAngleOfIncidence) {
+  const Instrument instrument =
+      load_text(instrument_text("as_built: {\"20\": {theta_i: 21 deg}}\nspot: {in_plane: 3 mm, "
+                                "perpendicular: 5 mm}\n"));
+  const struct {
+    const char* geometry;
+    double theta_i_deg;
+  } rows[] = {{"20", 21.0}, {"60", 60.0}, {"85", 85.0}};
+  for (const auto& row : rows) {
+    const Spot spot = instrument.spot(row.geometry, 70, 40);
+    EXPECT_EQ(spot.x_mm, 70.0);
+    EXPECT_EQ(spot.y_mm, 40.0);
+    EXPECT_NEAR(spot.half_length_mm, 1.5 / std::cos(row.theta_i_deg * std::numbers::pi / 180.0),
+                rounding);
+    EXPECT_NEAR(spot.half_width_mm, 2.5, rounding);
+  }
+}
+
+TEST(InstrumentSpot, IsAPointUnlessTheFileSays) {
+  const Instrument nominal = nominal_instrument(shipped_standard("iso_2813/2014"));
+  EXPECT_EQ(nominal.spot("60", 1, 2), (Spot{.x_mm = 1, .y_mm = 2}));
+  EXPECT_THROW((void)nominal.spot("45", 1, 2), std::out_of_range);
 }
 
 }  // namespace

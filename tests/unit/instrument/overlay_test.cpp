@@ -54,6 +54,7 @@ void expect_same(const Instrument& a, const Instrument& b) {
   }
   EXPECT_EQ(a.setup_uncertainty, b.setup_uncertainty);
   EXPECT_EQ(a.polarization, b.polarization);
+  EXPECT_EQ(a.beam, b.beam);
   expect_same_spectrum(a.source, b.source);
   expect_same_spectrum(a.responsivity, b.responsivity);
   EXPECT_EQ(a.behaviour, b.behaviour);
@@ -192,6 +193,17 @@ TEST(Overlay, MergesBehaviourAndKeepsTheRepeatabilityBesideIt) {
   EXPECT_EQ(laid_over(triangle, "repeatability: 1 GU").behaviour, expected);
 }
 
+TEST(Overlay, GivesASpotToAllGeometriesOrToSome) {
+  const Instrument triangle = shipped_instrument("triangle_gloss");
+  const Instrument all = laid_over(triangle, "spot: {in_plane: 2 mm, perpendicular: 3 mm}");
+  for (const std::string& id : all.geometries) {
+    EXPECT_EQ(all.beam.at(id), (BeamSection{.in_plane_mm = 2, .perpendicular_mm = 3})) << id;
+  }
+  const Instrument one = laid_over(triangle, "spot: {\"20\": {diameter: 4 mm}}");
+  EXPECT_EQ(one.beam.at("20"), (BeamSection{.in_plane_mm = 4, .perpendicular_mm = 4}));
+  EXPECT_EQ(one.beam.at("60"), triangle.beam.at("60"));
+}
+
 TEST(Overlay, ReplacesTheSamples) {
   const Instrument changed =
       laid_over(shipped_instrument("triangle_gloss"), "samples: [pmma, n_bk7]");
@@ -215,6 +227,13 @@ TEST(OverlayErrors, NameThePlaceInTheOverlaysFile) {
             "case.yaml:1:22: polarization.60: expected a number in [-1, 1], found '-2'");
   EXPECT_EQ(error_of("polarization: {\"45\": 0.1}"),
             "case.yaml:1:22: polarization.45: expected a geometry of iso_2813/2014, found '45'");
+  EXPECT_EQ(error_of("spot: {\"45\": {diameter: 9 mm}}"),
+            "case.yaml:1:14: spot.45: expected a geometry of iso_2813/2014, found '45'");
+  EXPECT_EQ(error_of("spot: {diameter: 0 mm}"),
+            "case.yaml:1:18: spot.diameter: expected a length (nm, um, mm) > 0, found '0 mm'");
+  EXPECT_EQ(error_of("spot: {in_plane: 9 mm}"),
+            "case.yaml:1:7: spot.perpendicular: expected the key 'perpendicular', found 'only "
+            "in_plane'");
   EXPECT_EQ(error_of("repeatability: -1 GU"),
             "case.yaml:1:16: repeatability: expected a gloss value (GU) >= 0, found '-1 GU'");
 }
@@ -241,12 +260,13 @@ TEST(OverlayErrors, OfWhatCannotBeLaidOver) {
   for (const std::string key : {"geometries: [\"60\"]", "identity: {model: X}", "wire: {port: 1}",
                                 "built_to: iso_2813/2014", "id: x"}) {
     const std::string name = key.substr(0, key.find(':'));
-    EXPECT_EQ(error_of(key),
-              "case.yaml:1:1: " + name +
-                  ": expected one of the keys as_built, behaviour, polarization, repeatability, "
-                  "responsivity, samples, setup_uncertainty, source_spectrum, uncertainty, found "
-                  "'" +
-                  name + "'");
+    EXPECT_EQ(
+        error_of(key),
+        "case.yaml:1:1: " + name +
+            ": expected one of the keys as_built, behaviour, polarization, repeatability, "
+            "responsivity, samples, setup_uncertainty, source_spectrum, spot, uncertainty, found "
+            "'" +
+            name + "'");
   }
   EXPECT_EQ(error_of("[]"), "case.yaml:1:1: expected a map of keys and values, found 'a list'");
 }
