@@ -51,6 +51,7 @@ std::string table(const std::vector<Row>& rows, const Options& options) {
 void run(const Options& options, const CommonOptions& common) {
   const Catalog::Kind kind = options.what == "standards" ? Catalog::Kind::standard
                              : options.what == "samples" ? Catalog::Kind::sample
+                             : options.what == "batches" ? Catalog::Kind::batch
                                                          : Catalog::Kind::instrument;
   std::vector<Row> rows;
   for (const Catalog::Entry& entry : common.catalog().list(kind)) {
@@ -64,9 +65,9 @@ void run(const Options& options, const CommonOptions& common) {
 void add_list_command(CLI::App& program, const CommonOptions& common) {
   CLI::App* command = program.add_subcommand("list", "What there is to measure, and to measure by");
   const auto options = std::make_shared<Options>();
-  command->add_option("what", options->what, "standards, samples or instruments")
+  command->add_option("what", options->what, "standards, samples, instruments or batches")
       ->required()
-      ->check(CLI::IsMember({"standards", "samples", "instruments"}));
+      ->check(CLI::IsMember({"standards", "samples", "instruments", "batches"}));
   add_format_option(*command, options->format);
   command->footer("Example: gonio list standards");
   command->callback([options, &common] { run(*options, common); });

@@ -174,7 +174,8 @@ TEST(ListProgram, TellsWhatShipsInThreeFormats) {
   EXPECT_THAT(output_of({"list", "standards"}), HasSubstr("\niso_2813/2014 "));
   EXPECT_THAT(output_of({"list", "samples"}), HasSubstr("\ncopper_polished "));
   EXPECT_THAT(output_of({"list", "instruments"}), HasSubstr("\ntriangle_gloss "));
-  for (const char* what : {"standards", "samples", "instruments"}) {
+  EXPECT_THAT(output_of({"list", "batches"}), HasSubstr("\ncoil_coating_60 "));
+  for (const char* what : {"standards", "samples", "instruments", "batches"}) {
     const json read = json_of({"list", what});
     EXPECT_EQ(read.at("schema"), "gonio/list/1");
     const auto csv = lines_of(output_of({"list", what, "--format", "csv"}));
