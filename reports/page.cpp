@@ -75,6 +75,7 @@ std::string render_page(FixedName name, const std::string& title, PageData data)
   data.set("page_filter", part("page_filter.mustache"));
   data.set("mark", part("verdict.mustache"));
   data.set("figure", part("figure.mustache"));
+  data.set("word_table", part("table.mustache"));
   mustache::mustache page{std::string(template_text("page.mustache"))};
   page.set_custom_escape([](const std::string& text) { return xml_text(text); });
   std::string html = page.render(data);

@@ -12,7 +12,9 @@ const checks = require('./checks.js');
 const folder = process.argv[2];
 const inFolder = (name) => path.join(folder, name);
 const charts = { 'conformance.html': 3, 'long.html': 3, 'hostile.html': 3, 'measurement.html': 9,
-  'certificate.html': 8, 'shipped/certificate.html': 12, 'hostile_certificate.html': 8 };
+  'certificate.html': 8, 'shipped/certificate.html': 12, 'hostile_certificate.html': 8,
+  'qa.html': 20, 'qa_many.html': 20, 'hostile_qa.html': 20, 'qa_history.html': 6,
+  'hostile_qa_history.html': 4 };
 
 let browser;
 before(() => { browser = new Browser(); });
@@ -38,7 +40,8 @@ test('long.html repeats the heads of its tables', () =>
 test('certificate.html numbers its sheets and cuts no table that fits on one', () =>
   checks.numbersSheets(browser, inFolder('certificate.html'), 'EGL-2026-0042'));
 
-for (const [name, scripts] of [['hostile.html', 1], ['hostile_certificate.html', 0]]) {
+for (const [name, scripts] of [['hostile.html', 1], ['hostile_certificate.html', 0],
+  ['hostile_qa.html', 0], ['hostile_qa_history.html', 0]]) {
   test(`hostile text of ${name} is shown and not run`, async () => {
     const page = await checks.opened(browser, inFolder(name));
     const [title, found, text] = await page.evaluate(() =>

@@ -6,8 +6,11 @@
 
 #include "emulator/core/text_file.hpp"
 #include "reports/conformance_report.hpp"
+#include "reports/qa_history.hpp"
+#include "reports/qa_report.hpp"
 #include "tests/unit/reports/example_report.hpp"
 #include "tests/unit/reports/hostile_certificate.hpp"
+#include "tests/unit/reports/hostile_qa.hpp"
 #include "tests/unit/reports/hostile_report.hpp"
 
 namespace gonio {
@@ -52,6 +55,22 @@ void write_certificates(const std::filesystem::path& folder) {
                   certificate_page(test::hostile_report_of(hostile, text)));
 }
 
+/// All charts; then with points that stand together.
+void write_qa(const std::filesystem::path& folder) {
+  QaResult many = test::example_qa();
+  for (ChannelSummary& channel : many.channels) {
+    channel.charts.individual = test::example_chart(channel.mean, 1.0, 400, 250);
+  }
+  const std::string text = test::hostile_text(folder / "trace");
+  write_text_file(folder / "qa.html", qa_page(test::example_qa(), "0.1.0"));
+  write_text_file(folder / "qa_many.html", qa_page(many, "0.1.0"));
+  write_text_file(folder / "hostile_qa.html", qa_page(test::hostile_qa(text), text));
+  write_text_file(folder / "qa_history.html",
+                  history_page(test::example_history(), "sqlite:qa.db", "0.1.0"));
+  write_text_file(folder / "hostile_qa_history.html",
+                  history_page(test::hostile_history(text), text, text));
+}
+
 void write_pages(const std::filesystem::path& folder) {
   const ConformanceReport hostile = test::hostile_report(test::hostile_text(folder / "trace"));
   write_text_file(folder / "conformance.html", conformance_page(test::example_report()));
@@ -60,6 +79,7 @@ void write_pages(const std::filesystem::path& folder) {
   write_text_file(folder / "hostile.html", conformance_page(hostile));
   write_text_file(folder / "hostile.xml", conformance_junit(hostile));
   write_certificates(folder);
+  write_qa(folder);
 }
 
 }  // namespace

@@ -11,8 +11,11 @@
 
 #include "emulator/core/text_file.hpp"
 #include "reports/measurement_report.hpp"
+#include "reports/qa_history.hpp"
+#include "reports/qa_report.hpp"
 #include "tests/unit/procedure/laboratory.hpp"
 #include "tests/unit/reports/example_certificate.hpp"
+#include "tests/unit/reports/example_history.hpp"
 #include "tests/unit/reports/example_report.hpp"
 
 // Reports against reports/reference/, see the README there. UPDATE_REFERENCE=1 rewrites the files.
@@ -123,6 +126,17 @@ TEST(ApprovedReports, CertificateIsTheSameInEveryTextFormat) {
   expect_approved("certificate.txt", certificate_text(test::report_of(certificate), false));
   const Certificate brief = test::brief_certificate();
   expect_approved("certificate.json", certificate_json(test::report_of(brief)));
+}
+
+TEST(ApprovedReports, QaIsTheSameInEveryTextFormat) {
+  expect_approved("qa.txt", qa_text(test::example_qa(), false));
+  expect_approved("qa.json", qa_json(test::brief_qa()));
+}
+
+TEST(ApprovedReports, HistoryIsTheSameInEveryTextFormat) {
+  const auto runs = test::example_history();
+  expect_approved("qa_history.txt", history_text(runs, "sqlite:qa.db", false));
+  expect_approved("qa_history.csv", history_csv(runs));
 }
 
 }  // namespace
