@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "emulator/app/bars.hpp"
 #include "emulator/app/command.hpp"
-#include "emulator/core/progress.hpp"
 #include "emulator/core/text_file.hpp"
 #include "emulator/core/today.hpp"
 #include "emulator/procedure/certify.hpp"
@@ -36,27 +36,6 @@ struct Options {
   std::string budgets = "main";
   std::optional<std::string> report;
   std::optional<std::string> pdf;
-};
-
-/// A bar for each work that is done after another.
-class Bars {
- public:
-  void show(const std::string& work, std::size_t done, std::size_t total) {
-    if (!bar_ || work != work_ || total != total_ || done < done_) {
-      bar_.emplace(total, work);
-      work_ = work;
-      total_ = total;
-      done_ = 0;
-    }
-    for (; done_ < done; ++done_) {
-      bar_->advance();
-    }
-  }
-
- private:
-  std::optional<Progress> bar_;
-  std::string work_;
-  std::size_t total_ = 0, done_ = 0;
 };
 
 /// What the instrument is judged by: what was asked for, else what it is built to.

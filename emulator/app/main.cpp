@@ -73,6 +73,7 @@ int run(int argc, char** argv) {
   add_list_command(program, common);
   add_glass_command(program, common);
   add_certify_command(program, common, status);
+  add_qa_command(program, common, status);
   add_serve_command(program, common);
   add_registers_command(program);
   add_read_command(program);

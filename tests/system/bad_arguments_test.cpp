@@ -166,8 +166,8 @@ void expect_refused(const std::vector<std::string>& arguments, const std::string
 TEST(BadCommand, NoneAtAll) { expect_refused({}, "subcommand"); }
 TEST(BadCommand, Unknown) {
   const std::string message =
-      "expected one of the commands measure, list, glass, certify, serve, registers, read, "
-      "trigger, watch, write, found '";
+      "expected one of the commands measure, list, glass, certify, qa, serve, registers, "
+      "read, trigger, watch, write, found '";
   expect_refused({"frobnicate"}, message + "frobnicate'");
   expect_refused({"frobnicate", "--help"}, message + "frobnicate'");
 }

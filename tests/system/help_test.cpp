@@ -43,8 +43,9 @@ std::vector<std::vector<std::string>> examples_in(const std::string& help) {
   return examples;
 }
 
-const std::vector<std::vector<std::string>> commands{{},        {"measure"}, {"list"},
-                                                     {"glass"}, {"certify"}, {"registers"}};
+const std::vector<std::vector<std::string>> commands{
+    {},     {"measure"},       {"list"},         {"glass"},        {"certify"},
+    {"qa"}, {"qa", "history"}, {"qa", "export"}, {"qa", "verify"}, {"registers"}};
 
 /// Commands that need a device, or go on until they are told to end.
 const std::vector<std::vector<std::string>> device_commands{
@@ -87,8 +88,9 @@ TEST(Help, ShowsExamplesThatRunWithADevice) {
 
 TEST(Help, OfTheProgramNamesItsCommands) {
   const std::string help = help_of({});
-  for (const char* command : {"  measure ", "  list ", "  glass ", "  certify ", "  serve ",
-                              "  registers ", "  read ", "  trigger ", "  watch ", "  write "}) {
+  for (const char* command :
+       {"  measure ", "  list ", "  glass ", "  certify ", "  qa ", "  serve ", "  registers ",
+        "  read ", "  trigger ", "  watch ", "  write "}) {
     EXPECT_THAT(help, testing::HasSubstr(command));
   }
   EXPECT_THAT(help, testing::HasSubstr("Exit status: 0 done"));
