@@ -5,24 +5,32 @@ if(GONIO_BUILD_TESTS)
   include(GoogleTest)
   add_custom_target(sanitized_tests) # what AddressSanitizer and UndefinedBehaviorSanitizer watch
   add_custom_target(parallel_tests)  # what ThreadSanitizer watches
+  # The same in `ci/test --thorough`.
+  add_custom_target(thorough_sanitized_tests DEPENDS sanitized_tests)
+  add_custom_target(thorough_parallel_tests DEPENDS parallel_tests)
 endif()
 
-# gonio_unit_test(<module> [PARALLEL] [LINK <target>...])
+# gonio_unit_test(<module> [PARALLEL] [THOROUGH] [LINK <target>...])
 # One program from all *_test.cpp of the current folder; one ctest entry per test, label unit.
+# THOROUGH: sanitizers watch it in `ci/test --thorough` only, since that takes them minutes.
 # PARALLEL: code that runs threads; label unit_parallel, which `-L unit` and `-L parallel` both find
 # and ThreadSanitizer runs.
 function(gonio_unit_test module)
-  cmake_parse_arguments(arg "PARALLEL" "" "LINK" ${ARGN})
+  cmake_parse_arguments(arg "PARALLEL;THOROUGH" "" "LINK" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   add_executable(test_${module} ${sources})
   gonio_warnings(test_${module})
   target_link_libraries(test_${module} PRIVATE ${arg_LINK} GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${module} PRIVATE GONIO_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   set(label unit)
-  add_dependencies(sanitized_tests test_${module})
+  set(thorough "")
+  if(arg_THOROUGH)
+    set(thorough thorough_)
+  endif()
+  add_dependencies(${thorough}sanitized_tests test_${module})
   if(arg_PARALLEL)
     set(label unit_parallel)
-    add_dependencies(parallel_tests test_${module})
+    add_dependencies(${thorough}parallel_tests test_${module})
   endif()
   gtest_discover_tests(test_${module} PROPERTIES TIMEOUT 600 LABELS ${label}
                        FAIL_REGULAR_EXPRESSION "0 tests from 0 test suites ran" DISCOVERY_TIMEOUT 60)
