@@ -43,6 +43,8 @@ void ReadySet::change(int socket, Watcher& watcher, Interest interest) {
   control(EPOLL_CTL_MOD, socket, watcher, interest);
 }
 
+void ReadySet::remove(int socket) { epoll_ctl(epoll_, EPOLL_CTL_DEL, socket, nullptr); }
+
 void ReadySet::control(int operation, int socket, Watcher& watcher, Interest interest) {
   epoll_event event{};
   event.events = events_of(interest);

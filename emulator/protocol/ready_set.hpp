@@ -26,10 +26,14 @@ class ReadySet {
   ReadySet(const ReadySet&) = delete;
   ReadySet& operator=(const ReadySet&) = delete;
 
-  /// @param watcher  outlives the socket's stay. A socket that is closed has left.
+  /// @param watcher  outlives the socket's stay.
   /// @throws std::system_error  if the kernel refuses.
   void add(int socket, Watcher& watcher, Interest interest);
   void change(int socket, Watcher& watcher, Interest interest);
+  /// To be called before a socket is closed: the kernel knows it for as long as anybody holds a
+  /// descriptor of it, such as a process that looks at those of this one. Without effect on a
+  /// socket that is not in the set.
+  void remove(int socket);
 
   /// Calls the watchers of all sockets that are ready now. @return  how many there were.
   int poll();

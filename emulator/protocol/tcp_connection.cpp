@@ -37,15 +37,19 @@ TcpConnection::TcpConnection(int socket, Surroundings& surroundings, std::string
   set_options(socket_);
 }
 
-TcpConnection::~TcpConnection() {
-  if (socket_ >= 0) {
-    ::close(socket_);
-  }
-}
+TcpConnection::~TcpConnection() { release(); }
 
 void TcpConnection::start() {
   surroundings_.ready.add(socket_, *this, interest_);
   surroundings_.log.debug("{}: connected", peer_);
+}
+
+void TcpConnection::release() {
+  if (socket_ >= 0) {
+    surroundings_.ready.remove(socket_);
+    ::close(socket_);
+    socket_ = -1;
+  }
 }
 
 void TcpConnection::close(const char* reason) {
@@ -53,8 +57,7 @@ void TcpConnection::close(const char* reason) {
     return;
   }
   surroundings_.log.debug("{}: closed, {}", peer_, reason);
-  ::close(socket_);
-  socket_ = -1;
+  release();
   pause_.cancel();
   surroundings_.on_close(*this);
 }

@@ -57,6 +57,7 @@ class TcpConnection final : public Watcher, public std::enable_shared_from_this<
   [[nodiscard]] Clock::time_point last_activity() const { return last_activity_; }
 
  private:
+  void release();
   void proceed();
   void receive();
   [[nodiscard]] bool answer_some();
