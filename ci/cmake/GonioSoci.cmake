@@ -10,10 +10,6 @@ function(gonio_find_soci)
   add_library(soci INTERFACE IMPORTED GLOBAL)
   target_include_directories(soci SYSTEM INTERFACE ${SOCI_INCLUDE_DIR} ${SOCI_LIBPQ_INCLUDE_DIR}
                                                    ${SOCI_SQLITE3_INCLUDE_DIR})
-  if(GONIO_SANITIZE MATCHES undefined)
-    # It would look for type_info that the library keeps for itself.
-    target_compile_options(soci INTERFACE -fno-sanitize=vptr)
-  endif()
   # The core last: the backends need it.
   foreach(part sqlite3 postgresql core)
     find_library(SOCI_${part}_LIBRARY soci_${part} REQUIRED)

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct CertifyArguments {
   std::string instrument;
   std::optional<std::string> standard;
   std::vector<std::string> geometries;
@@ -39,7 +39,7 @@ struct Options {
 };
 
 /// What the instrument is judged by: what was asked for, else what it is built to.
-fs::path clauses_file(const Options& options, const Instrument& instrument,
+fs::path clauses_file(const CertifyArguments& options, const Instrument& instrument,
                       const Catalog& catalog) {
   fs::path beside = instrument.standard.file.parent_path() / "clauses.yaml";
   if (!options.standard && fs::is_regular_file(beside)) {
@@ -58,7 +58,7 @@ ClauseSet load_judgement(const fs::path& file, const Catalog& catalog) {
   return clauses;
 }
 
-std::vector<Sample> ladder(const Options& options, const Catalog& catalog,
+std::vector<Sample> ladder(const CertifyArguments& options, const Catalog& catalog,
                            const WavelengthGrid& grid) {
   std::vector<Sample> samples = effect_ladder(grid);
   for (const std::string& sample : options.samples) {
@@ -85,7 +85,8 @@ struct Readings {
   std::vector<Sample> tiles = {};
 };
 
-Readings load_readings(const Options& options, const Catalog& catalog, const WavelengthGrid& grid) {
+Readings load_readings(const CertifyArguments& options, const Catalog& catalog,
+                       const WavelengthGrid& grid) {
   Readings loaded;
   if (options.readings) {
     loaded.readings = load_tile_readings(*options.readings);
@@ -102,7 +103,7 @@ std::map<std::string, std::string> sources_of(const fs::path& clauses) {
   return fs::is_regular_file(file) ? load_sources(file) : std::map<std::string, std::string>();
 }
 
-Certificate make_certificate(const Options& options, const Instrument& instrument,
+Certificate make_certificate(const CertifyArguments& options, const Instrument& instrument,
                              const ClauseSet& clauses, const Catalog& catalog) {
   const WavelengthGrid grid = WavelengthGrid::visible();
   const Readings read = load_readings(options, catalog, grid);
@@ -129,7 +130,7 @@ Certificate make_certificate(const Options& options, const Instrument& instrumen
 }
 
 /// Everything is made before anything is written: who interrupts finds nothing half done.
-void write_files(const Options& options, const CertificateReport& report) {
+void write_files(const CertifyArguments& options, const CertificateReport& report) {
   if (!options.report && !options.pdf) {
     return;
   }
@@ -159,7 +160,7 @@ ExitStatus status_of(ConformanceVerdict verdict) {
   }
 }
 
-ExitStatus run(const Options& options, const CommonOptions& common) {
+ExitStatus run_certify(const CertifyArguments& options, const CommonOptions& common) {
   const Catalog catalog = common.catalog();
   if (options.pdf) {
     (void)pdf_printer();
@@ -184,7 +185,7 @@ ExitStatus run(const Options& options, const CommonOptions& common) {
   return status_of(certificate.verdict);
 }
 
-void add_calculation_options(CLI::App& command, Options& options) {
+void add_calculation_options(CLI::App& command, CertifyArguments& options) {
   command
       .add_option("--decision", options.decision,
                   "How uncertainty is taken into account at a limit")
@@ -211,7 +212,7 @@ void add_calculation_options(CLI::App& command, Options& options) {
       ->capture_default_str();
 }
 
-void add_output_options(CLI::App& command, Options& options) {
+void add_output_options(CLI::App& command, CertifyArguments& options) {
   command.add_option("--laboratory", options.laboratory,
                      "What the laboratory states on its certificate: a file of schema "
                      "gonio/laboratory/1");
@@ -232,7 +233,7 @@ void add_output_options(CLI::App& command, Options& options) {
 void add_certify_command(CLI::App& program, const CommonOptions& common, ExitStatus& status) {
   CLI::App* command = program.add_subcommand(
       "certify", "Limits of a set-up, what its deviations do to readings, and their uncertainty");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<CertifyArguments>();
   command->add_option("instrument", options->instrument, "An instrument as built: a file or an id")
       ->required();
   command->add_option("--standard", options->standard,
@@ -249,7 +250,7 @@ void add_certify_command(CLI::App& program, const CommonOptions& common, ExitSta
   command->footer(
       "Example: gonio certify triangle_gloss --standard iso_2813/2014\n"
       "Exit status: 0 all limits are met, 1 not, or too uncertain to tell");
-  command->callback([options, &common, &status] { status = run(*options, common); });
+  command->callback([options, &common, &status] { status = run_certify(*options, common); });
 }
 
 }  // namespace gonio::app

@@ -12,7 +12,7 @@ namespace gonio::app {
 
 namespace {
 
-struct Options {
+struct GlassArguments {
   std::vector<double> indices;
   std::string standard = "iso_2813/2014";
   std::string format = "text";
@@ -59,7 +59,7 @@ std::string table(const Standard& standard, const std::vector<double>& indices,
   return text;
 }
 
-void run(const Options& options, const CommonOptions& common) {
+void run_glass(const GlassArguments& options, const CommonOptions& common) {
   const Catalog catalog = common.catalog();
   const Standard standard =
       load_standard(catalog.find(Catalog::Kind::standard, options.standard), catalog);
@@ -78,7 +78,7 @@ void run(const Options& options, const CommonOptions& common) {
 void add_glass_command(CLI::App& program, const CommonOptions& common) {
   CLI::App* command = program.add_subcommand(
       "glass", "Gloss values of polished glass by refractive index: what a primary standard reads");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<GlassArguments>();
   command
       ->add_option("--index", options->indices, "Refractive indices; 1.400 to 1.800 if not given")
       ->check(number_in(Range::closed(1.0, 10.0)));
@@ -86,7 +86,7 @@ void add_glass_command(CLI::App& program, const CommonOptions& common) {
       ->capture_default_str();
   add_format_option(*command, options->format);
   command->footer("Example: gonio glass --index 1.527 --standard astm_d523/14");
-  command->callback([options, &common] { run(*options, common); });
+  command->callback([options, &common] { run_glass(*options, common); });
 }
 
 }  // namespace gonio::app

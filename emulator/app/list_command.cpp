@@ -10,7 +10,7 @@ namespace gonio::app {
 
 namespace {
 
-struct Options {
+struct ListArguments {
   std::string what;
   std::string format = "text";
 };
@@ -26,7 +26,7 @@ Row read_row(const Catalog::Entry& entry) {
   });
 }
 
-std::string table(const std::vector<Row>& rows, const Options& options) {
+std::string table(const std::vector<Row>& rows, const ListArguments& options) {
   std::string text = options.format == "csv" ? "id,title,file\n" : "";
   std::size_t width = 0;
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
@@ -48,7 +48,7 @@ std::string table(const std::vector<Row>& rows, const Options& options) {
   return text;
 }
 
-void run(const Options& options, const CommonOptions& common) {
+void run_list(const ListArguments& options, const CommonOptions& common) {
   const Catalog::Kind kind = options.what == "standards" ? Catalog::Kind::standard
                              : options.what == "samples" ? Catalog::Kind::sample
                              : options.what == "batches" ? Catalog::Kind::batch
@@ -64,13 +64,13 @@ void run(const Options& options, const CommonOptions& common) {
 
 void add_list_command(CLI::App& program, const CommonOptions& common) {
   CLI::App* command = program.add_subcommand("list", "What there is to measure, and to measure by");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ListArguments>();
   command->add_option("what", options->what, "standards, samples, instruments or batches")
       ->required()
       ->check(CLI::IsMember({"standards", "samples", "instruments", "batches"}));
   add_format_option(*command, options->format);
   command->footer("Example: gonio list standards");
-  command->callback([options, &common] { run(*options, common); });
+  command->callback([options, &common] { run_list(*options, common); });
 }
 
 }  // namespace gonio::app

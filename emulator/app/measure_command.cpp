@@ -22,7 +22,7 @@ namespace {
 
 constexpr int default_patches = 256;
 
-struct Options {
+struct MeasureArguments {
   std::vector<std::string> samples;
   std::string standard = "iso_2813/2014";
   std::optional<std::string> instrument;
@@ -87,7 +87,7 @@ std::optional<PanelPosition> parse_position(const std::optional<std::string>& te
   return PanelPosition{.x_mm = place_mm[0], .y_mm = place_mm[1]};
 }
 
-std::shared_ptr<const FluxIntegrator> make_integrator(const Options& options) {
+std::shared_ptr<const FluxIntegrator> make_integrator(const MeasureArguments& options) {
   if (options.integrator == "aperture") {
     if (options.patches) {
       throw std::invalid_argument("--patches: expected --integrator patches with it");
@@ -102,7 +102,7 @@ std::shared_ptr<const FluxIntegrator> make_integrator(const Options& options) {
   return std::make_shared<PatchIntegrator>(patches);
 }
 
-Instrument make_instrument(const Options& options, const Catalog& catalog) {
+Instrument make_instrument(const MeasureArguments& options, const Catalog& catalog) {
   if (options.instrument) {
     return load_instrument(catalog.find(Catalog::Kind::instrument, *options.instrument), catalog);
   }
@@ -111,7 +111,7 @@ Instrument make_instrument(const Options& options, const Catalog& catalog) {
 }
 
 /// The index of a reference glass that was asked for; empty for the standard's own reference.
-Eigen::ArrayXcd reference_index(const Options& options, const Standard& standard,
+Eigen::ArrayXcd reference_index(const MeasureArguments& options, const Standard& standard,
                                 const WavelengthGrid& grid) {
   if (!options.reference_glass) {
     return {};
@@ -125,7 +125,7 @@ Eigen::ArrayXcd reference_index(const Options& options, const Standard& standard
   return RefractiveIndex::load(*options.reference_glass).sample(grid);
 }
 
-std::string describe_reference(const Options& options, const Scale& scale) {
+std::string describe_reference(const MeasureArguments& options, const Scale& scale) {
   if (scale.reference == Scale::Reference::incident_flux) {
     return fmt::format("scale {:g} x reflected / incident flux", scale.value.nominal);
   }
@@ -179,7 +179,7 @@ void write_report(const std::filesystem::path& folder, const MeasurementHeader& 
   write_text_file(folder / "measurement.csv", measurement_csv(header, measurements));
 }
 
-void run(const Options& options, const CommonOptions& common) {
+void run_measure(const MeasureArguments& options, const CommonOptions& common) {
   const Catalog catalog = common.catalog();
   const WavelengthGrid grid = parse_wavelengths(options.wavelengths);
   const MeasureOptions measure_options{.geometries = options.geometries,
@@ -228,7 +228,7 @@ void run(const Options& options, const CommonOptions& common) {
 void add_measure_command(CLI::App& program, const CommonOptions& common) {
   CLI::App* command = program.add_subcommand(
       "measure", "Gloss and spectral reflectance of samples by a standard or an instrument");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MeasureArguments>();
   command->add_option("--sample", options->samples, "Sample files or ids, see `gonio list samples`")
       ->required();
   auto* standard = command
@@ -261,7 +261,7 @@ void add_measure_command(CLI::App& program, const CommonOptions& common) {
   command->footer(
       "Example: gonio measure --sample copper_polished --sample black_glass_n1567 --geometry 60\n"
       "         gonio measure --sample my_paint.yaml --instrument triangle_gloss --format json");
-  command->callback([options, &common] { run(*options, common); });
+  command->callback([options, &common] { run_measure(*options, common); });
 }
 
 }  // namespace gonio::app

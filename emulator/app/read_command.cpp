@@ -14,7 +14,7 @@ namespace gonio::app {
 
 namespace {
 
-struct Options {
+struct ReadArguments {
   DeviceOptions device;
   std::vector<std::string> points;
   std::string format = "text";
@@ -67,7 +67,7 @@ std::string read_points(ModbusClient& client, const std::vector<PointName>& name
                           : points_table(points, view, format == "csv");
 }
 
-void run(const Options& options) {
+void run_read(const ReadArguments& options) {
   std::vector<PointName> names;
   for (const std::string& point : options.points) {
     names.push_back(PointName::parse(point));
@@ -88,7 +88,7 @@ void run(const Options& options) {
 
 void add_read_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("read", "What a glossmeter on Modbus shows");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ReadArguments>();
   add_device_options(*command, options->device);
   command->add_option("--points", options->points,
                       "Only these points of the register map, e.g. gloss_60 temperature");
@@ -96,7 +96,7 @@ void add_read_command(CLI::App& program) {
   command->footer(
       "Example: gonio read modbus://127.0.0.1:1502\n"
       "         gonio read modbus-rtu:/dev/ttyUSB0 --points gloss_60 temperature --format csv");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_read(*options); });
 }
 
 }  // namespace gonio::app

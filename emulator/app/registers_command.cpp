@@ -21,7 +21,7 @@ constexpr Format formats[] = {{"page", register_page},
                               {"telegraf", telegraf_toml},
                               {"home_assistant", home_assistant_yaml}};
 
-void run(const std::string& name) {
+void run_registers(const std::string& name) {
   for (const Format& format : formats) {
     if (format.name == name) {
       print(format.write(RegisterMap::standard()));
@@ -43,7 +43,7 @@ void add_registers_command(CLI::App& program) {
       ->check(CLI::IsMember(names))
       ->capture_default_str();
   command->footer("Example: gonio registers --format telegraf");
-  command->callback([format] { run(*format); });
+  command->callback([format] { run_registers(*format); });
 }
 
 }  // namespace gonio::app

@@ -21,7 +21,7 @@ namespace gonio::app {
 
 namespace {
 
-struct Options {
+struct ServeArguments {
   StationOptions station;
 
   std::optional<std::string> tcp;
@@ -68,7 +68,7 @@ std::chrono::milliseconds parse_time(const char* option, const std::string& text
 }
 
 /// Tells where it listens, on standard output, before the first request can come.
-void announce(const Listening& listening, const Options& options) {
+void announce(const Listening& listening, const ServeArguments& options) {
   if (options.format == "json") {
     nlohmann::ordered_json line = {{"schema", "gonio/listening/1"}};
     if (listening.tcp) {
@@ -105,7 +105,7 @@ void log_summary(spdlog::logger& log, const Counters& counters) {
       counters.corrupt_headers, counters.dropped_rtu_frames, counters.injected_faults, by_function);
 }
 
-void run(Options options, const CommonOptions& common) {
+void run_serve(ServeArguments options, const CommonOptions& common) {
   if (!options.tcp && !options.rtu) {
     options.tcp = default_tcp;
   }
@@ -136,7 +136,7 @@ void run(Options options, const CommonOptions& common) {
   log_summary(*log, station->counters());
 }
 
-void add_line_options(CLI::App& command, Options& options) {
+void add_line_options(CLI::App& command, ServeArguments& options) {
   command.add_option("--tcp", options.tcp,
                      fmt::format("HOST:PORT, port 0 for any; {} without --rtu", default_tcp));
   command
@@ -168,7 +168,7 @@ void add_line_options(CLI::App& command, Options& options) {
 void add_serve_command(CLI::App& program, const CommonOptions& common) {
   CLI::App* command =
       program.add_subcommand("serve", "Instruments on Modbus TCP, on a serial line, or on both");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ServeArguments>();
   add_station_options(*command, options->station);
   add_line_options(*command, *options);
   command->add_option("--format", options->format, "How the places where it listens are printed")
@@ -180,7 +180,7 @@ void add_serve_command(CLI::App& program, const CommonOptions& common) {
       "         gonio serve triangle_gloss --rtu pty --rtu-link /tmp/glossmeter --ideal\n"
       "         gonio serve my_meter.yaml other.yaml --unit 1 --unit 7 --log-level trace\n"
       "         gonio serve triangle_gloss --fault '{fault: delay, time: 2 s, function: 3}'");
-  command->callback([options, &common] { run(*options, common); });
+  command->callback([options, &common] { run_serve(*options, common); });
 }
 
 }  // namespace gonio::app

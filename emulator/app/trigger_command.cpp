@@ -15,7 +15,7 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-struct Options {
+struct TriggerArguments {
   DeviceOptions device;
   std::string command;
   std::string wait = "60 s";
@@ -47,7 +47,7 @@ void await(ModbusClient& client, const std::string& name, const GivenCommand& co
   }
 }
 
-void run(const Options& options) {
+void run_trigger(const TriggerArguments& options) {
   const auto wait = parse_duration("--wait", options.wait, Range::closed(0.0, 86'400.0));
   ModbusClient client = options.device.connect();
   const auto deadline = steady_clock::now() + wait;
@@ -72,7 +72,7 @@ void run(const Options& options) {
 void add_trigger_command(CLI::App& program) {
   CLI::App* command =
       program.add_subcommand("trigger", "Have a glossmeter on Modbus measure, calibrate and so on");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TriggerArguments>();
   add_device_options(*command, options->device);
   command->add_option("command", options->command, "What it is to do")
       ->required()
@@ -82,7 +82,7 @@ void add_trigger_command(CLI::App& program) {
   command->footer(
       "Example: gonio trigger modbus://127.0.0.1:1502 calibrate\n"
       "         gonio trigger modbus://127.0.0.1:1502 measure --wait 10");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_trigger(*options); });
 }
 
 }  // namespace gonio::app

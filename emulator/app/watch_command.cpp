@@ -22,7 +22,7 @@ namespace gonio::app {
 
 namespace {
 
-struct Options {
+struct WatchArguments {
   DeviceOptions device;
   std::string interval = "1 s";
   std::optional<int> count;
@@ -228,7 +228,7 @@ class Watch {
   bool is_first_ = true;
 };
 
-void run(const Options& options) {
+void run_watch(const WatchArguments& options) {
   const auto interval =
       parse_duration("--interval", options.interval, Range::closed(0.01, 86'400.0));
   const Interruption interruption;
@@ -247,7 +247,7 @@ void run(const Options& options) {
 void add_watch_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "watch", "Follow a glossmeter on Modbus: live on a terminal, else a line each time");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<WatchArguments>();
   add_device_options(*command, options->device);
   command->add_option("--interval", options->interval, "Time between two looks at it")
       ->capture_default_str();
@@ -259,7 +259,7 @@ void add_watch_command(CLI::App& program) {
   command->footer(
       "Example: gonio watch modbus://127.0.0.1:1502 --interval 0.5\n"
       "         gonio watch modbus://127.0.0.1:1502 --interval 100ms --format csv");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_watch(*options); });
 }
 
 }  // namespace gonio::app

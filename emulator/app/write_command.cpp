@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t most_registers = 123;  // of one request
 
-struct Options {
+struct WriteArguments {
   DeviceOptions device;
   std::vector<std::string> assignments;
 };
@@ -76,7 +76,7 @@ std::vector<Request> plan(ModbusClient& client, const std::vector<Assignment>& a
   return requests;
 }
 
-void run(const Options& options) {
+void run_write(const WriteArguments& options) {
   std::vector<Assignment> assignments;
   for (const std::string& text : options.assignments) {
     assignments.push_back(parse_assignment(text));
@@ -96,7 +96,7 @@ void run(const Options& options) {
 
 void add_write_command(CLI::App& program) {
   CLI::App* command = program.add_subcommand("write", "Change settings of a glossmeter on Modbus");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<WriteArguments>();
   add_device_options(*command, options->device);
   command
       ->add_option("assignments", options->assignments,
@@ -107,7 +107,7 @@ void add_write_command(CLI::App& program) {
       "Example: gonio write modbus://127.0.0.1:1502 mode=statistics statistics_readings=10\n"
       "         gonio write modbus://127.0.0.1:1502 mode=pass_fail lower_limit_60=80 "
       "measured_channels=channel_1+channel_2");
-  command->callback([options] { run(*options); });
+  command->callback([options] { run_write(*options); });
 }
 
 }  // namespace gonio::app
