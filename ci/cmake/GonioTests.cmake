@@ -10,6 +10,12 @@ if(GONIO_BUILD_TESTS)
   add_custom_target(thorough_parallel_tests DEPENDS parallel_tests)
 endif()
 
+# What a test program is built like: its own sources without more optimisation than takes no time.
+function(gonio_test_program target)
+  gonio_warnings(${target})
+  target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+endfunction()
+
 # gonio_unit_test(<module> [PARALLEL] [THOROUGH] [LINK <target>...])
 # One program from all *_test.cpp of the current folder; one ctest entry per test, label unit.
 # THOROUGH: sanitizers watch it in `ci/test --thorough` only, since that takes them minutes.
@@ -19,7 +25,7 @@ function(gonio_unit_test module)
   cmake_parse_arguments(arg "PARALLEL;THOROUGH" "" "LINK" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*_test.cpp)
   add_executable(test_${module} ${sources})
-  gonio_warnings(test_${module})
+  gonio_test_program(test_${module})
   target_link_libraries(test_${module} PRIVATE ${arg_LINK} GTest::gmock GTest::gtest_main)
   target_compile_definitions(test_${module} PRIVATE GONIO_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   set(label unit)
