@@ -31,6 +31,13 @@ function(gonio_warnings target)
                                            $<$<BOOL:${GONIO_WERROR}>:-Werror>)
 endfunction()
 
+# For sources that compute little: sanitizers take longer to optimise them than that saves.
+function(gonio_plain_when_sanitized target)
+  if(GONIO_SANITIZE)
+    target_compile_options(${target} PRIVATE -O0)
+  endif()
+endfunction()
+
 # gonio_module(<name> [DEPENDS <target>...] [PRIVATE <target>...])
 # The library gonio::<name> from all sources of the current folder.
 function(gonio_module name)
