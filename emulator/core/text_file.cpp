@@ -92,6 +92,18 @@ std::string read_text_file(const fs::path& path, int largest_mib) {
 }
 
 void write_file(const fs::path& path, const std::function<void(std::ostream&)>& write) {
+  if (what_stands_at(path) == "something else") {
+    // A rename would put a file in the place of a device or pipe, for everybody.
+    std::ofstream out(path, std::ios::binary);
+    if (!out) {
+      fail(path);
+    }
+    write(out);
+    if (!out.flush()) {
+      fail(path);
+    }
+    return;
+  }
   std::string temporary = path.string() + ".XXXXXX";
   const int descriptor = mkstemp(temporary.data());
   if (descriptor < 0) {

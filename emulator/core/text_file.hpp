@@ -16,7 +16,8 @@ namespace gonio {
 [[nodiscard]] std::string read_text_file(const std::filesystem::path& path, int largest_mib = 16);
 
 /// Writes a file whole or not at all: a temporary file beside it, then a rename. When it returns
-/// the file survives a power failure, as far as the file system can promise that.
+/// the file survives a power failure, as far as the file system can promise that. A device or a
+/// pipe is written to as it stands.
 /// @throws std::system_error  with the path, if that fails; an older file is then unchanged, or
 ///                            replaced whole. So it is for whatever `write` throws.
 void write_file(const std::filesystem::path& path, const std::function<void(std::ostream&)>& write);

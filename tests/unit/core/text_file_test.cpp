@@ -1,7 +1,10 @@
 #include "emulator/core/text_file.hpp"
 
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <iterator>
@@ -87,6 +90,21 @@ TEST(WriteTextFile, LetsAReaderOfTheOlderFileReadOn) {
   std::ifstream reader(path);  // the older file stays whole: it is not written over
   write_text_file(path, "new");
   EXPECT_EQ(std::string(std::istreambuf_iterator<char>(reader), {}), "old");
+}
+
+TEST(WriteTextFile, WritesIntoAPipeAndLeavesItThere) {
+  const TemporaryFolder folder;
+  const std::filesystem::path pipe = folder.path() / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  ASSERT_GE(reader, 0);
+  write_text_file(pipe, "text");
+  std::string text(10, ' ');
+  const auto n = read(reader, text.data(), text.size());
+  close(reader);
+  ASSERT_EQ(n, 4);
+  EXPECT_EQ(text.substr(0, 4), "text");
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
 }
 
 TEST(WriteTextFile, FailsInAMissingFolderAndNamesThePath) {
