@@ -1,7 +1,10 @@
 #pragma once
 
+#include <Eigen/Core>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "emulator/core/input_error.hpp"
 #include "emulator/statistics/estimate.hpp"
@@ -25,6 +28,16 @@ inline nlohmann::ordered_json json_of(const std::optional<Estimate>& estimate) {
 
 inline nlohmann::ordered_json json_of(const SourceMark& mark) {
   return {{"file", mark.file}, {"line", mark.line}, {"column", mark.column}};
+}
+
+inline nlohmann::ordered_json json_of(const Eigen::ArrayXd& values) {
+  return std::vector<double>(values.begin(), values.end());
+}
+
+/// As a report prints it. Bytes that are no UTF-8, which the name of a file may have, become
+/// U+FFFD.
+inline std::string json_text(const nlohmann::ordered_json& json) {
+  return json.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace gonio

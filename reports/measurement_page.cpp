@@ -96,6 +96,11 @@ std::string measurement_page(const MeasurementHeader& header,
   if (const std::string informative = informative_note(measurements); !informative.empty()) {
     notes.push_back(informative);
   }
+  for (const Measurement& measurement : measurements) {
+    for (const std::string& warning : measurement.warnings) {
+      notes.push_back(fmt::format("{}: {}", measurement.sample, warning));
+    }
+  }
   const std::string title = measurements.size() == 1
                                 ? fmt::format("Gloss of {}", measurements.front().sample)
                                 : fmt::format("Gloss of {} samples", measurements.size());

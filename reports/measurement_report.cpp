@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "emulator/core/csv_cell.hpp"
-#include "emulator/core/quantity.hpp"
+#include "reports/json_values.hpp"
 #include "reports/measurement_words.hpp"
 
 namespace gonio {
@@ -14,16 +14,6 @@ namespace gonio {
 namespace {
 
 using nlohmann::ordered_json;
-
-std::vector<double> to_vector(const Eigen::ArrayXd& values) {
-  return {values.begin(), values.end()};
-}
-
-/// An angle in degrees without the last bits that its way through radians leaves: 60, not
-/// 59.99999999999999.
-double degrees_for_output(Angle angle) {
-  return parse_quantity(fmt::format("{:.12g}", angle.degrees()), Dimension::number).value();
-}
 
 std::string lab_text(const std::optional<ReflectedColour>& colour) {
   return colour ? fmt::format("{:>8} {:>7} {:>7}", fixed_text(colour->lab.L, 2),
@@ -87,8 +77,8 @@ ordered_json geometry_json(const MeasurementHeader& header, const GeometryResult
   if (result.spot) {
     json["spot"] = spot_json(*result.spot);
   }
-  json["spectrum"] = {{"wavelength_nm", to_vector(header.grid.nanometres())},
-                      {"reflectance", to_vector(result.reading.reflectance)}};
+  json["spectrum"] = {{"wavelength_nm", json_of(header.grid.nanometres())},
+                      {"reflectance", json_of(result.reading.reflectance)}};
   return json;
 }
 
@@ -114,12 +104,10 @@ ordered_json measurement_object(const MeasurementHeader& header, const Measureme
           {{"id", haze.id}, {"value", haze.value ? ordered_json(*haze.value) : nullptr}});
     }
   }
+  if (!measurement.warnings.empty()) {
+    json["warnings"] = measurement.warnings;
+  }
   return json;
-}
-
-/// Bytes that are no UTF-8, which the name of a file may have, become U+FFFD.
-std::string json_text(const ordered_json& json) {
-  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace

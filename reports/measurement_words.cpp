@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "emulator/core/quantity.hpp"
 #include "emulator/procedure/evaluation.hpp"
 
 namespace gonio {
@@ -16,6 +17,10 @@ std::string fixed_text(double value, int decimals) {
     text.erase(0, 1);
   }
   return text;
+}
+
+double degrees_for_output(Angle angle) {
+  return parse_quantity(fmt::format("{:.12g}", angle.degrees()), Dimension::number).value();
 }
 
 std::string reported_text(double gloss, const Standard& standard) {

@@ -127,7 +127,7 @@ PageData curves_figure(Figures& figures, CurveKind kind, const std::string& capt
   Chart chart("curves");
   const AxisSpan x = wavelength_axis(curves);
   const AxisSpan y = value_axis(groups);
-  chart.set("is_weight", kind == CurveKind::weight ? 1.0 : 0.0);
+  chart.set("kind", double(kind));
   chart.set("x_low", x.low).set("x_high", x.high).set("y_low", y.low).set("y_high", y.high);
   chart.set("count", double(curves.size())).block("curves", groups);
   return figures.figure(chart, caption, keys);

@@ -18,7 +18,7 @@ struct SpectralCurve {
   std::string title;
   std::vector<double> wavelength_nm, value;
 };
-enum class CurveKind { weight, reflectance };
+enum class CurveKind { weight, reflectance, radiance_factor };
 [[nodiscard]] PageData curves_figure(Figures& figures, CurveKind kind, const std::string& caption,
                                      const std::vector<SpectralCurve>& curves);
 

@@ -169,6 +169,7 @@ ExitStatus run_certify(const CertifyArguments& options, const CommonOptions& com
       options.laboratory ? load_laboratory(*options.laboratory) : Laboratory();
   const Instrument instrument =
       load_instrument(catalog.find(Catalog::Kind::instrument, options.instrument), catalog);
+  expect_gloss(instrument);
   const fs::path file = clauses_file(options, instrument, catalog);
   const Certificate certificate =
       make_certificate(options, instrument, load_judgement(file, catalog), catalog);

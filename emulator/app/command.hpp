@@ -23,12 +23,15 @@ struct CommonOptions {
 
 /// Each adds its command to the program; the command's work is its callback.
 void add_measure_command(CLI::App& program, const CommonOptions& common);
+void add_colour_command(CLI::App& program, const CommonOptions& common);
+void add_profile_command(CLI::App& program, const CommonOptions& common);
 void add_list_command(CLI::App& program, const CommonOptions& common);
 void add_glass_command(CLI::App& program, const CommonOptions& common);
 /// @param status  becomes what the certificate says.
 void add_certify_command(CLI::App& program, const CommonOptions& common, ExitStatus& status);
 /// @param status  becomes what is decided of the batch.
 void add_qa_command(CLI::App& program, const CommonOptions& common, ExitStatus& status);
+/// @param status  tells whether a search converged.
 void add_serve_command(CLI::App& program, const CommonOptions& common);
 void add_registers_command(CLI::App& program);
 void add_read_command(CLI::App& program);

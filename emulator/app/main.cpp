@@ -70,6 +70,8 @@ int run(int argc, char** argv) {
   program.add_option("--data", common.data_dir,
                      "Folder with standards and fixtures, searched first");
   add_measure_command(program, common);
+  add_colour_command(program, common);
+  add_profile_command(program, common);
   add_list_command(program, common);
   add_glass_command(program, common);
   add_certify_command(program, common, status);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "emulator/app/command.hpp"
+#include "emulator/app/measuring_options.hpp"
 #include "emulator/core/progress.hpp"
 #include "emulator/core/quantity.hpp"
 #include "emulator/core/text_file.hpp"
@@ -38,33 +39,6 @@ struct MeasureArguments {
   std::optional<std::string> spectrum;
   std::optional<std::string> report;
 };
-
-/// `first:last:step` in nm.
-WavelengthGrid parse_wavelengths(const std::string& text) {
-  std::vector<double> parts;
-  for (const std::string& part : CLI::detail::split(text, ':')) {
-    parts.push_back(parse_quantity(part, Dimension::number).value_or(-1.0));
-  }
-  const bool is_grid =
-      parts.size() == 3 && parts[0] > 0.0 && parts[1] >= parts[0] && parts[2] > 0.0;
-  const double steps = is_grid ? (parts[1] - parts[0]) / parts[2] : 0.0;
-  constexpr double most_steps = 100'000.0;
-  if (!is_grid || steps > most_steps || std::abs(steps - std::round(steps)) > 1e-6) {
-    throw std::invalid_argument(fmt::format(
-        "--wavelengths: expected first:last:step in nm, a whole number of steps, found '{}'",
-        text));
-  }
-  return {nanometres(parts[0]), nanometres(parts[2]), Eigen::Index(std::round(steps)) + 1};
-}
-
-Angle parse_tilt(const std::string& text) {
-  const auto radian = parse_quantity(text, Dimension::angle);
-  if (!radian || std::abs(radians(*radian).degrees()) > 45.0) {
-    throw std::invalid_argument(fmt::format(
-        "--tilt: expected an angle (deg, rad, mrad) in [-45, 45] deg, found '{}'", text));
-  }
-  return radians(*radian);
-}
 
 /// `X, Y`, two lengths.
 std::optional<PanelPosition> parse_position(const std::optional<std::string>& text) {
@@ -149,6 +123,14 @@ void warn_of_missed_tolerance(const std::vector<Measurement>& measurements, doub
   }
 }
 
+void warn_of_measured_data(const std::vector<Measurement>& measurements) {
+  for (const Measurement& measurement : measurements) {
+    for (const std::string& warning : measurement.warnings) {
+      fmt::print(stderr, "gonio: {}: {}\n", measurement.sample, warning);
+    }
+  }
+}
+
 /// What the receptors see of each sample that has a lobe. Nothing of a tilted one, whose lobe lies
 /// elsewhere.
 std::vector<std::vector<Footprint>> footprints_of(const Instrument& instrument,
@@ -158,7 +140,7 @@ std::vector<std::vector<Footprint>> footprints_of(const Instrument& instrument,
   std::vector<std::vector<Footprint>> footprints(samples.size());
   Progress progress(samples.size(), "footprints");
   for (std::size_t i = 0; i < samples.size(); ++i, progress.advance()) {
-    if (samples[i].surface.lobes.empty() || tilt.radians() != 0.0) {
+    if (!samples[i].surface.scatters() || tilt.radians() != 0.0) {
       continue;
     }
     for (const GeometryResult& result : measurements[i].geometries) {
@@ -184,7 +166,7 @@ void run_measure(const MeasureArguments& options, const CommonOptions& common) {
   const WavelengthGrid grid = parse_wavelengths(options.wavelengths);
   const MeasureOptions measure_options{.geometries = options.geometries,
                                        .tolerance = options.tolerance,
-                                       .tilt = parse_tilt(options.tilt),
+                                       .tilt = parse_angle("--tilt", options.tilt, tilt_range()),
                                        .position = parse_position(options.position)};
   const Instrument instrument = make_instrument(options, catalog);
   const Glossmeter glossmeter(instrument, grid, make_integrator(options),
@@ -218,6 +200,7 @@ void run_measure(const MeasureArguments& options, const CommonOptions& common) {
         : options.format == "csv"
             ? measurement_csv(header, measurements)
             : measurement_text(header, measurements, isatty(STDOUT_FILENO) != 0));
+  warn_of_measured_data(measurements);
   if (options.integrator == "aperture") {
     warn_of_missed_tolerance(measurements, options.tolerance);
   }

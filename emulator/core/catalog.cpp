@@ -30,8 +30,11 @@ fs::path named_root(const fs::path& folder) {
 /// Entries of one root: standards are <family>/<edition>/standard.yaml or clauses.yaml, the others
 /// <id>.yaml.
 void collect(Catalog::Kind kind, const fs::path& root, std::map<std::string, fs::path>& found) {
-  if (kind == Catalog::Kind::standard || kind == Catalog::Kind::clauses) {
-    const char* name = kind == Catalog::Kind::standard ? "standard.yaml" : "clauses.yaml";
+  if (kind == Catalog::Kind::standard || kind == Catalog::Kind::clauses ||
+      kind == Catalog::Kind::profile) {
+    const char* name = kind == Catalog::Kind::standard  ? "standard.yaml"
+                       : kind == Catalog::Kind::clauses ? "clauses.yaml"
+                                                        : "profile.yaml";
     for (const auto& family : fs::directory_iterator(root / "standards")) {
       if (!family.is_directory()) {
         continue;
@@ -65,6 +68,8 @@ std::string noun(Catalog::Kind kind) {
       return "a standard file";
     case Catalog::Kind::clauses:
       return "a file of clauses";
+    case Catalog::Kind::profile:
+      return "a file of profile rules";
     case Catalog::Kind::sample:
       return "a sample file";
     case Catalog::Kind::instrument:

@@ -12,8 +12,9 @@ namespace gonio {
 /// The folders with gonio's data, in the order in which they are searched.
 class Catalog {
  public:
-  /// `clauses` is what a standard demands, beside its numbers, or instead of them.
-  enum class Kind { standard, clauses, sample, instrument, batch };
+  /// `clauses` is what a standard demands, beside its numbers, or instead of them; `profile` is what
+  /// it makes of in-plane profiles.
+  enum class Kind { standard, clauses, profile, sample, instrument, batch };
 
   struct Entry {
     std::string id;

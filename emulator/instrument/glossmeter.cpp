@@ -27,6 +27,7 @@ Glossmeter::Glossmeter(Instrument instrument, const WavelengthGrid& grid,
       integrator_(std::move(integrator)),
       source_(instrument_.source.sample(grid)),
       weight_(source_ * instrument_.responsivity.sample(grid)) {
+  expect_gloss(instrument_);
   if (weight_.minCoeff() < 0.0 || !(weight_.sum() > 0.0)) {
     throw InputError(instrument_.source.mark(),
                      "power where the receptor responds, nowhere below 0", "none or less");

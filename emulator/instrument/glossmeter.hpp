@@ -32,6 +32,7 @@ class Glossmeter {
  public:
   /// @param reference_index  of a reference glass, shape (n_lambda); empty for the standard's
   ///                         constant.
+  /// @throws std::invalid_argument  if the instrument measures colour.
   Glossmeter(Instrument instrument, const WavelengthGrid& grid,
              std::shared_ptr<const FluxIntegrator> integrator,
              const Eigen::ArrayXcd& reference_index = {});

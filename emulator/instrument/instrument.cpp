@@ -62,6 +62,9 @@ Aperture build(const Frame& frame, const ApertureLimits& limits, const OpeningAs
   if (opening.diameter) {
     return Aperture::circle(frame, opening.diameter->value);
   }
+  if (limits.is_sphere && !limits.is_circle()) {
+    return Aperture::circle(frame, Angle());  // no gloss trap
+  }
   if (limits.is_circle() && !opening.in_plane && !opening.perpendicular) {
     return Aperture::circle(frame, limits.diameter->known().nominal);
   }
@@ -119,6 +122,16 @@ Instrument nominal_instrument(const Standard& standard) {
           .geometries = ids_of(standard),
           .source = standard.source,
           .responsivity = standard.responsivity};
+}
+
+void expect_gloss(const Instrument& instrument) {
+  if (instrument.standard.scale.is_of_colour()) {
+    throw std::invalid_argument(
+        fmt::format("expected an instrument that measures gloss, found '{}', which measures colour "
+                    "by {}: see gonio colour",
+                    instrument.file.empty() ? instrument.title : instrument.id,
+                    instrument.standard.id));
+  }
 }
 
 Instrument load_instrument(const std::filesystem::path& path, const Catalog& catalog) {

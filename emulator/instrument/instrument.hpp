@@ -81,7 +81,8 @@ struct Instrument {
   std::optional<YamlNode> wire = {};
 
   [[nodiscard]] bool has(const std::string& geometry_id) const;
-  /// The apertures of one geometry, in the frame of a sample that lies flat.
+  /// The apertures of one geometry, in the frame of a sample that lies flat; of a sphere, its gloss
+  /// trap.
   /// @throws InputError         if the standard leaves a size unknown that is not stated as built.
   /// @throws std::out_of_range  if the instrument has no such geometry.
   [[nodiscard]] MeasuringGeometry geometry(const std::string& geometry_id) const;
@@ -96,6 +97,9 @@ struct Instrument {
 
 /// The instrument that has the nominal values of a standard.
 [[nodiscard]] Instrument nominal_instrument(const Standard& standard);
+
+/// @throws std::invalid_argument  if the instrument measures colour, not gloss.
+void expect_gloss(const Instrument& instrument);
 
 /// Reads a file of schema gonio/instrument/1.
 /// @param catalog  where `built_to` and `samples` are looked up.

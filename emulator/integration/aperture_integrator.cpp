@@ -7,6 +7,7 @@
 #include "emulator/integration/chebyshev.hpp"
 #include "emulator/integration/cubature.hpp"
 #include "emulator/integration/lobe_flux.hpp"
+#include "emulator/integration/measured_flux.hpp"
 
 namespace gonio {
 
@@ -61,7 +62,8 @@ CosineRange incidence_range(const Aperture& source) {
 
 Flux ApertureIntegrator::reflected(const Surface& surface, const MeasuringGeometry& geometry,
                                    const ArrayXd& weight, double tolerance) const {
-  const double terms = double(surface.lobes.size()) + (surface.interfaces.empty() ? 0.0 : 1.0);
+  const double terms = double(surface.lobes.size() + surface.measured.size()) +
+                       (surface.interfaces.empty() ? 0.0 : 1.0);
   const double share = tolerance / std::max(terms, 1.0);
   Flux sum{.spectral = ArrayXd::Zero(surface.grid.size())};
   const auto add = [&](const Flux& flux) {
@@ -77,6 +79,11 @@ Flux ApertureIntegrator::reflected(const Surface& surface, const MeasuringGeomet
   for (const Lobe& lobe : surface.lobes) {
     if (incoming > 0.0) {
       add(LobeFlux(lobe, geometry, weight, share, incoming)());
+    }
+  }
+  for (const MeasuredTerm& term : surface.measured) {
+    if (incoming > 0.0) {
+      add(measured_flux(term, geometry, weight, share, incoming));
     }
   }
   return sum;

@@ -1,10 +1,36 @@
 #pragma once
 
 #include "emulator/integration/chebyshev.hpp"
-#include "emulator/integration/cubature.hpp"
 #include "emulator/integration/flux.hpp"
+#include "emulator/integration/nested_integral.hpp"
 
 namespace gonio {
+
+/// The geometry of a lobe times Chebyshev polynomials of cos theta_d: f_k = g T_k.
+class LobeIntegrand : public Integrand {
+ public:
+  /// All but the weight must outlive this object.
+  LobeIntegrand(const Lobe& lobe, double parameter, const ColourSeries& series,
+                const Eigen::ArrayXd& weight)
+      : Integrand(series.coefficient, weight),
+        lobe_(lobe),
+        parameter_(parameter),
+        series_(series) {}
+
+  [[nodiscard]] SlopeWidth slope_width(double cos_theta_i) const override {
+    return lobe_.shape->slope_width(parameter_, cos_theta_i);
+  }
+  [[nodiscard]] bool is_symmetric() const override { return true; }
+  void evaluate(const Vector3& omega_i, const DirectionBatch& omega_r) override;
+  void control(Eigen::ArrayXd& value) override;
+  void add(Eigen::ArrayXd& weight, Eigen::Ref<Eigen::VectorXd> sum) override;
+
+ private:
+  const Lobe& lobe_;
+  double parameter_;
+  const ColourSeries& series_;
+  Eigen::ArrayXd x_, g_;
+};
 
 /// The flux of one lobe from a source aperture into a receptor aperture.
 ///
@@ -32,7 +58,6 @@ class LobeFlux {
   double tolerance_;
   double incident_;
   ColourSeries series_;
-  Eigen::VectorXd functional_;  // of the moments, whose error is controlled: the weighted flux
 };
 
 }  // namespace gonio

@@ -35,8 +35,9 @@ std::array<GaussError, 8> make_gauss_errors() {
   return errors;
 }
 
-/// The rule that takes the fewest nodes for a Gaussian of width 1 on [-extent, extent].
-AxisPlan plan_axis(double extent, double relative_tolerance) {
+/// The rule of at least so many points that takes the fewest nodes for a Gaussian of width 1 on
+/// [-extent, extent].
+AxisPlan plan_axis(double extent, double relative_tolerance, int least_points) {
   static const std::array<GaussError, 8> rules = make_gauss_errors();
   constexpr double end_of_gaussian = 5.0;
   AxisPlan best{.gauss_points = 0, .first_break = 0.0};
@@ -46,7 +47,7 @@ AxisPlan plan_axis(double extent, double relative_tolerance) {
     const double graded =
         1.0 + 2.0 * std::ceil(std::log(std::max(extent / r, 1.0)) / std::log(growth));
     const double cells = std::max(graded, std::ceil(std::min(extent, end_of_gaussian) / r));
-    if (cells * (2.0 * n + 1.0) < least) {
+    if (n >= least_points && cells * (2.0 * n + 1.0) < least) {
       least = cells * (2.0 * n + 1.0);
       best = {.gauss_points = n, .first_break = r};
     }
@@ -130,8 +131,12 @@ std::optional<Peak> scale_over_source(const Aperture& source, const std::vector<
 Plan::Plan(const Aperture& aperture, const std::optional<Peak>& peak, double relative_tolerance) {
   const double half_u = 0.5 * (aperture.u_high() - aperture.u_low());
   const double half_v = 0.5 * (aperture.v_high() - aperture.v_low());
-  p = plan_axis(peak ? half_u / peak->width_u : 1.0, relative_tolerance);
-  q = plan_axis(peak ? half_v / peak->width_v : 1.0, relative_tolerance);
+  // Rows of a circle are as long as cos p, and as thick: that asks for more of a rule than a wide
+  // lobe does, or the circle would be halved again and again.
+  constexpr int for_cos_squared = 7;  // 2e-8 of the integral over half a turn
+  p = plan_axis(peak ? half_u / peak->width_u : 1.0, relative_tolerance,
+                aperture.outline() == Aperture::Outline::circle ? for_cos_squared : 1);
+  q = plan_axis(peak ? half_v / peak->width_v : 1.0, relative_tolerance, 1);
 }
 
 void Breaks::add_u(const Region& region, const Peak& peak, const AxisPlan& plan, double reach) {

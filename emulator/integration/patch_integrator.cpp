@@ -2,10 +2,12 @@
 
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <stdexcept>
 
 #include "emulator/integration/batch_kernels.hpp"
-#include "emulator/integration/chebyshev.hpp"
+#include "emulator/integration/lobe_flux.hpp"
+#include "emulator/integration/measured_flux.hpp"
 
 namespace gonio {
 
@@ -77,43 +79,64 @@ Patches patches_in(const Aperture& aperture, Index resolution) {
   return result;
 }
 
-/// Sums of one lobe over batches of directions, as moments; one column for each wavelength if the
-/// shape changes with it, else one column.
-class LobeSum {
+/// Sums over batches of directions: of one lobe, as moments, one column for each wavelength if the
+/// shape changes with it, else one column; or of one measured term, by channel.
+class TermSum {
  public:
-  LobeSum(const Lobe& lobe, const CosineRange& range)
-      : lobe_(lobe), series_(lobe.colour, range.low, range.high, accuracy) {
-    moments_.setZero(series_.coefficient.rows(), std::max<Index>(1, lobe.shape_parameter.size()));
+  TermSum(const Lobe& lobe, const CosineRange& range)
+      : series_(std::make_unique<ColourSeries>(lobe.colour, range.low, range.high, accuracy)),
+        spectra_(series_->coefficient) {
+    for (Index l = 0; l < std::max<Index>(1, lobe.shape_parameter.size()); ++l) {
+      const double parameter = lobe.shape_parameter.size() > 0 ? lobe.shape_parameter(l) : 0.0;
+      integrands_.push_back(
+          std::make_unique<LobeIntegrand>(lobe, parameter, *series_, any_weight()));
+    }
+    sums_.setZero(spectra_.rows(), Index(integrands_.size()));
+  }
+  explicit TermSum(const MeasuredTerm& term) : spectra_(term.spectra) {
+    integrands_.push_back(std::make_unique<MeasuredIntegrand>(term, any_weight()));
+    sums_.setZero(spectra_.rows(), 1);
   }
 
   /// Adds factor * sum_j f_r(omega_i, omega_r(j)) projected(j).
   void add(const Vector3& omega_i, const Patches& receptor, double factor) {
-    const Index n = receptor.size();
-    x_.resize(n);
-    g_.resize(n);
-    kernel::half_angle_argument(omega_i, receptor.omega, series_.scale, series_.shift, x_);
-    for (Index l = 0; l < moments_.cols(); ++l) {
-      const double parameter = lobe_.shape_parameter.size() > 0 ? lobe_.shape_parameter(l) : 0.0;
-      lobe_.shape->evaluate(parameter, omega_i, receptor.omega, g_);
-      g_ *= factor * receptor.projected;
-      kernel::add_chebyshev_moments(x_, g_, moments_.col(l));
+    for (Index l = 0; l < sums_.cols(); ++l) {
+      Integrand& integrand = *integrands_[std::size_t(l)];
+      integrand.evaluate(omega_i, receptor.omega);
+      weight_ = factor * receptor.projected;
+      integrand.add(weight_, sums_.col(l));
     }
   }
 
   [[nodiscard]] ArrayXd spectral() const {
-    if (lobe_.shape_parameter.size() > 0) {
-      return series_.coefficient.cwiseProduct(moments_).colwise().sum().transpose();
+    if (sums_.cols() > 1) {
+      return spectra_.cwiseProduct(sums_).colwise().sum().transpose();
     }
-    return series_.coefficient.transpose() * moments_;
+    return spectra_.transpose() * sums_.col(0);
   }
 
  private:
   static constexpr double accuracy = 1e-9;
-  const Lobe& lobe_;
-  ColourSeries series_;
-  Eigen::MatrixXd moments_;
-  ArrayXd x_, g_;
+  /// Sums need no functional.
+  [[nodiscard]] ArrayXd any_weight() const { return ArrayXd::Zero(spectra_.cols()); }
+
+  std::unique_ptr<const ColourSeries> series_;  // of a lobe
+  Eigen::MatrixXd spectra_;                     // of each sum, shape (n_k, n_lambda)
+  std::vector<std::unique_ptr<Integrand>> integrands_;
+  Eigen::MatrixXd sums_;
+  ArrayXd weight_;
 };
+
+std::vector<TermSum> sums_of(const Surface& surface, const CosineRange& range) {
+  std::vector<TermSum> sums;
+  for (const Lobe& lobe : surface.lobes) {
+    sums.emplace_back(lobe, range);
+  }
+  for (const MeasuredTerm& term : surface.measured) {
+    sums.emplace_back(term);
+  }
+  return sums;
+}
 
 ArrayXd reflected_at(Index resolution, const Surface& surface, const MeasuringGeometry& geometry) {
   const Patches source = patches_in(geometry.source, resolution);
@@ -125,12 +148,11 @@ ArrayXd reflected_at(Index resolution, const Surface& surface, const MeasuringGe
       sum += source.projected(k) * surface.specular_reflectance(omega_i.z());
     }
   }
-  for (const Lobe& lobe : surface.lobes) {
-    LobeSum lobe_sum(lobe, half_angle_range(geometry));
+  for (TermSum& term_sum : sums_of(surface, half_angle_range(geometry))) {
     for (Index k = 0; k < source.size(); ++k) {
-      lobe_sum.add(source.direction(k), receptor, source.projected(k));
+      term_sum.add(source.direction(k), receptor, source.projected(k));
     }
-    sum += lobe_sum.spectral();
+    sum += term_sum.spectral();
   }
   return sum;
 }
@@ -138,17 +160,14 @@ ArrayXd reflected_at(Index resolution, const Surface& surface, const MeasuringGe
 ArrayXd hemispherical_at(Index resolution, const Surface& surface, const Vector3& omega_i) {
   const double theta_i = std::acos(std::min(omega_i.z(), 1.0));
   const CosineRange range{.low = std::cos(0.5 * theta_i + 0.25 * std::numbers::pi), .high = 1.0};
-  std::vector<LobeSum> sums;
-  for (const Lobe& lobe : surface.lobes) {
-    sums.emplace_back(lobe, range);
-  }
+  std::vector<TermSum> sums = sums_of(surface, range);
   for_each_row(resolution, [&](const Patches& row) {
-    for (LobeSum& sum : sums) {
+    for (TermSum& sum : sums) {
       sum.add(omega_i, row, 1.0);
     }
   });
   ArrayXd total = surface.specular_reflectance(omega_i.z());
-  for (const LobeSum& sum : sums) {
+  for (const TermSum& sum : sums) {
     total += sum.spectral();
   }
   return total;

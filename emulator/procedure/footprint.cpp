@@ -107,7 +107,7 @@ class LobeView {
   LobeView(const Instrument& instrument, const Aperture& source, const Surface& surface,
            const Frame& plane)
       : source_(source), surface_(surface), plane_(plane) {
-    if (surface_.lobes.empty()) {
+    if (!surface_.scatters()) {
       throw std::invalid_argument("footprint: the sample needs a lobe");
     }
     surface_.interfaces.clear();

@@ -4,11 +4,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <mutex>
 #include <stdexcept>
 
 #include "emulator/core/parallel_for.hpp"
+#include "emulator/procedure/measured_warnings.hpp"
 
 namespace gonio {
 
@@ -16,22 +18,6 @@ namespace {
 
 bool contains(const std::vector<std::string>& ids, const std::string& id) {
   return std::find(ids.begin(), ids.end(), id) != ids.end();
-}
-
-std::vector<std::string> geometries_asked_for(const Instrument& instrument,
-                                              const MeasureOptions& options) {
-  const std::string& name = instrument.file.empty() ? instrument.standard.id : instrument.id;
-  std::vector<std::string> asked;
-  for (const std::string& id : options.geometries) {
-    if (!instrument.has(id)) {
-      throw std::invalid_argument(fmt::format("{} has the geometries {}, not '{}'", name,
-                                              fmt::join(instrument.geometries, ", "), id));
-    }
-    if (!contains(asked, id)) {
-      asked.push_back(id);
-    }
-  }
-  return asked.empty() ? instrument.geometries : asked;
 }
 
 std::optional<ReflectedColour> reflected_colour(const GlossReading& reading,
@@ -112,6 +98,28 @@ Seen seen_by(const std::string& geometry_id, const Sample& sample, const Instrum
 
 }  // namespace
 
+/// Adds what is not said yet.
+void append(std::vector<std::string>& warnings, const std::vector<std::string>& more) {
+  std::ranges::copy_if(more, std::back_inserter(warnings),
+                       [&](const std::string& text) { return !contains(warnings, text); });
+}
+
+std::vector<std::string> geometries_asked_for(const Instrument& instrument,
+                                              const std::vector<std::string>& ids) {
+  const std::string& name = instrument.file.empty() ? instrument.standard.id : instrument.id;
+  std::vector<std::string> asked;
+  for (const std::string& id : ids) {
+    if (!instrument.has(id)) {
+      throw std::invalid_argument(fmt::format("{} has the geometries {}, not '{}'", name,
+                                              fmt::join(instrument.geometries, ", "), id));
+    }
+    if (!contains(asked, id)) {
+      asked.push_back(id);
+    }
+  }
+  return asked.empty() ? instrument.geometries : asked;
+}
+
 const GeometryResult* Measurement::find(const std::string& geometry_id) const {
   for (const GeometryResult& result : geometries) {
     if (result.id == geometry_id) {
@@ -127,12 +135,15 @@ Measurement measure(const Sample& sample, const Glossmeter& glossmeter, const Ob
   Measurement measurement{.sample = sample.id, .sample_title = sample.title};
   measurement.position = position_on(sample, options);
   std::map<std::string, double> gloss;
-  for (const std::string& id : geometries_asked_for(glossmeter.instrument(), options)) {
+  for (const std::string& id : geometries_asked_for(glossmeter.instrument(), options.geometries)) {
     const GeometryLimits& limits = standard.geometry(id);
     const Seen seen = seen_by(id, sample, glossmeter.instrument(), measurement.position);
     const GlossReading reading =
         glossmeter.read(seen.surface, id, options.tolerance, sample.tilt + options.tilt);
     gloss.emplace(id, reading.gloss);
+    append(measurement.warnings, data_warnings(seen.surface));
+    append(measurement.warnings,
+           reading_warnings(seen.surface, glossmeter, id, reading, sample.tilt + options.tilt));
     measurement.geometries.push_back({.id = id,
                                       .theta_i = limits.theta_i.nominal,
                                       .reading = reading,

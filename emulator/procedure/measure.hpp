@@ -66,10 +66,16 @@ struct Measurement {
   std::optional<std::string> selected_geometry = {};
   std::vector<HazeResult> haze = {};
   std::optional<PanelPosition> position = {};  ///< of a sample with a panel
+  std::vector<std::string> warnings = {};      ///< of measured BRDFs, see measured_warnings.hpp
 
   /// @return  the result of a geometry, or null.
   [[nodiscard]] const GeometryResult* find(const std::string& geometry_id) const;
 };
+
+/// The geometries asked for, each once; all that the instrument has if none is.
+/// @throws std::invalid_argument  for one that the instrument does not have.
+[[nodiscard]] std::vector<std::string> geometries_asked_for(const Instrument& instrument,
+                                                            const std::vector<std::string>& ids);
 
 /// Measures a sample in the geometries asked for; of a panel, what each of their spots covers.
 /// @throws InputError             for an aperture of unknown size.

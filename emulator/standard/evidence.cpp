@@ -35,4 +35,10 @@ Evidence read_evidence(const YamlNode& node) {
   });
 }
 
+Stated<double> read_stated_number(const YamlNode& node, const Range& range) {
+  return read_stated<double>(node, [&](const YamlNode& value, bool is_tolerance) {
+    return value.number(is_tolerance ? Range::positive() : range);
+  });
+}
+
 }  // namespace gonio

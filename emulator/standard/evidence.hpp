@@ -35,4 +35,23 @@ struct Stated {
 /// @throws InputError  for anything that is not as the schema says.
 [[nodiscard]] Evidence read_evidence(const YamlNode& node);
 
+/// Reads `{nominal: ..., tolerance: ..., evidence: {...}}`.
+/// @param read  called with a node, and whether it is that of the tolerance; gives the number.
+template <class T, class Read>
+Stated<T> read_stated(const YamlNode& node, Read read) {
+  return node.read_map([&](YamlMap& map) {
+    Stated<T> stated{.nominal = read(map.required("nominal"), false)};
+    if (const auto tolerance = map.optional("tolerance")) {
+      stated.tolerance = read(*tolerance, true);
+    }
+    stated.evidence = read_evidence(map.required("evidence"));
+    stated.mark = node.mark();
+    return stated;
+  });
+}
+
+/// The same of a dimensionless number. @param range  of the nominal value.
+[[nodiscard]] Stated<double> read_stated_number(const YamlNode& node,
+                                                const Range& range = Range::positive());
+
 }  // namespace gonio

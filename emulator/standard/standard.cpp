@@ -21,29 +21,9 @@ constexpr double largest_index = 1000.0;
 Range opening_range() { return {.low = 0.0, .high = 120.0, .low_open = true}; }
 Range incidence_range() { return {.low = 0.0, .high = 90.0, .high_open = true}; }
 
-/// `{nominal: ..., tolerance: ..., evidence: {...}}`; `read` reads the number.
-template <class T, class Read>
-Stated<T> read_stated(const YamlNode& node, Read read) {
-  return node.read_map([&](YamlMap& map) {
-    Stated<T> stated{.nominal = read(map.required("nominal"), false)};
-    if (const auto tolerance = map.optional("tolerance")) {
-      stated.tolerance = read(*tolerance, true);
-    }
-    stated.evidence = read_evidence(map.required("evidence"));
-    stated.mark = node.mark();
-    return stated;
-  });
-}
-
 Stated<Angle> read_angle(const YamlNode& node, const Range& range) {
   return read_stated<Angle>(node, [&](const YamlNode& value, bool is_tolerance) {
     return value.angle(is_tolerance ? Range::positive() : range);
-  });
-}
-
-Stated<double> read_number(const YamlNode& node, const Range& range = Range::positive()) {
-  return read_stated<double>(node, [&](const YamlNode& value, bool is_tolerance) {
-    return value.number(is_tolerance ? Range::positive() : range);
   });
 }
 
@@ -59,7 +39,7 @@ ApertureSize read_size(const YamlNode& node) {
   return {.value = read_angle(node, opening_range()), .mark = node.mark()};
 }
 
-ApertureLimits read_aperture(const YamlNode& node) {
+ApertureLimits read_source(const YamlNode& node) {
   return node.read_map([](YamlMap& map) {
     ApertureLimits limits;
     if (const auto diameter = map.optional("diameter")) {
@@ -68,6 +48,21 @@ ApertureLimits read_aperture(const YamlNode& node) {
     }
     limits.in_plane = read_size(map.required("in_plane"));
     limits.perpendicular = read_size(map.required("perpendicular"));
+    return limits;
+  });
+}
+
+/// As a source, or an integrating sphere: `{collects: hemisphere}`, `{..., trap: 8 deg}`.
+ApertureLimits read_receptor(const YamlNode& node) {
+  if (!node.is_map() || !YamlMap(node).has("collects")) {
+    return read_source(node);
+  }
+  return node.read_map([](YamlMap& map) {
+    (void)map.required("collects").choice({"hemisphere"});
+    ApertureLimits limits{.in_plane = {}, .perpendicular = {}, .diameter = {}, .is_sphere = true};
+    if (const auto trap = map.optional("trap")) {
+      limits.diameter = read_size(*trap);
+    }
     return limits;
   });
 }
@@ -131,8 +126,8 @@ GeometryLimits read_geometry(const YamlNode& node, const Library& library) {
     if (const auto theta_r = map.optional("theta_r")) {
       limits.theta_r = read_angle(*theta_r, {.low = -90.0, .high = 90.0});
     }
-    limits.source = read_aperture(map.required("source"));
-    limits.receptor = read_aperture(map.required("receptor"));
+    limits.source = read_source(map.required("source"));
+    limits.receptor = read_receptor(map.required("receptor"));
     if (const auto relative_to = map.optional("relative_to")) {
       limits.relative_to = relative_to->text();
     }
@@ -140,18 +135,22 @@ GeometryLimits read_geometry(const YamlNode& node, const Library& library) {
   });
 }
 
+Scale::Reference read_reference(const YamlNode& node) {
+  const std::string name = node.choice({"reference_glass", "incident_flux", "perfect_diffuser"});
+  return name == "reference_glass" ? Scale::Reference::glass
+         : name == "incident_flux" ? Scale::Reference::incident_flux
+                                   : Scale::Reference::perfect_diffuser;
+}
+
 Scale read_scale(const YamlNode& node) {
   return node.read_map([](YamlMap& map) {
     const std::string unit = map.required("unit").line();
-    const bool is_glass =
-        map.required("relative_to").choice({"reference_glass", "incident_flux"}) ==
-        "reference_glass";
-    Scale scale{.unit = unit,
-                .reference = is_glass ? Scale::Reference::glass : Scale::Reference::incident_flux,
-                .value = read_number(map.required("value"))};
-    if (is_glass) {
-      scale.refractive_index = read_number(map.required("refractive_index"),
-                                           {.low = 0.0, .high = largest_index, .low_open = true});
+    const Scale::Reference reference = read_reference(map.required("relative_to"));
+    Scale scale{
+        .unit = unit, .reference = reference, .value = read_stated_number(map.required("value"))};
+    if (reference == Scale::Reference::glass) {
+      scale.refractive_index = read_stated_number(
+          map.required("refractive_index"), {.low = 0.0, .high = largest_index, .low_open = true});
       if (const auto wavelength = map.optional("reference_wavelength")) {
         scale.reference_wavelength = read_wavelength(*wavelength);
       }
@@ -232,6 +231,11 @@ void expect_geometries(const Standard& standard, const YamlNode& node) {
     expect(rule.from);
     expect(rule.minus);
   }
+  if (standard.flop) {
+    expect(standard.flop->near_specular);
+    expect(standard.flop->face);
+    expect(standard.flop->far);
+  }
 }
 
 Standard read_standard(YamlMap& map, const fs::path& path, const Library& library) {
@@ -264,6 +268,9 @@ Standard read_standard(YamlMap& map, const fs::path& path, const Library& librar
     for (const YamlNode& item : haze->list()) {
       standard.haze.push_back(read_haze(item));
     }
+  }
+  if (const auto flop = map.optional("flop")) {
+    standard.flop = read_flop_rule(*flop);
   }
   if (const auto readings = map.optional("readings")) {
     standard.readings = read_reading_rule(*readings);

@@ -12,6 +12,7 @@
 #include "emulator/core/length.hpp"
 #include "emulator/core/table.hpp"
 #include "emulator/standard/evidence.hpp"
+#include "emulator/standard/flop_rule.hpp"
 #include "emulator/standard/reading_rule.hpp"
 
 namespace gonio {
@@ -25,9 +26,13 @@ struct ApertureSize {
   [[nodiscard]] const Stated<Angle>& known() const;
 };
 
-/// A rectangle (in_plane, perpendicular) or a circle (diameter).
+/// A rectangle (in_plane, perpendicular) or a circle (diameter); of a receptor, an integrating
+/// sphere too.
 struct ApertureLimits {
   std::optional<ApertureSize> in_plane, perpendicular, diameter;
+  /// It collects the hemisphere, but for a gloss trap of that diameter round theta_r; without a
+  /// diameter there is no trap, and the specular part is included.
+  bool is_sphere = false;
 
   [[nodiscard]] bool is_circle() const { return diameter.has_value(); }
   /// The standard leaves none of its sizes unknown.
@@ -52,12 +57,15 @@ struct GeometryLimits {
 
 /// What the numbers of a scale mean.
 struct Scale {
-  enum class Reference { glass, incident_flux };
+  enum class Reference { glass, incident_flux, perfect_diffuser };
   std::string unit;  ///< e.g. GU
   Reference reference = Reference::glass;
   Stated<double> value;                                         ///< what the reference reads
   std::optional<Stated<double>> refractive_index = {};          ///< of the reference glass
   std::optional<Stated<Wavelength>> reference_wavelength = {};  ///< at which it has that index
+
+  /// Relative to the perfect reflecting diffuser is how colour is measured; all others are gloss.
+  [[nodiscard]] bool is_of_colour() const { return reference == Reference::perfect_diffuser; }
 };
 
 /// Another geometry is to be used where the value at the first one lies beyond a limit.
@@ -94,6 +102,7 @@ struct Standard {
   std::vector<GeometryLimits> geometries = {};
   std::optional<Selection> selection = {};
   std::vector<HazeRule> haze = {};
+  std::optional<FlopRule> flop = {};
   std::optional<ReadingRule> readings = {};
   std::optional<Stated<double>> rounding = {};  ///< step to which a value is reported
 

@@ -10,6 +10,7 @@
 
 #include "emulator/core/table.hpp"
 #include "emulator/optics/refractive_index.hpp"
+#include "emulator/surface/measured_coating.hpp"
 #include "emulator/surface/models.hpp"
 
 namespace gonio {
@@ -210,7 +211,8 @@ const std::map<std::string, ModelReader>& model_readers() {
       {"ggx", read_ggx},
       {"ward", read_ward},
       {"coherent_roughness", read_coherent_roughness},
-      {"coated", read_coated}};
+      {"coated", read_coated},
+      {"measured", read_measured}};
   return readers;
 }
 

@@ -302,6 +302,9 @@ Surface mixture(const std::vector<Surface>& surfaces, const std::vector<double>&
     for (const Interface& interface : surfaces[i].interfaces) {
       sum.interfaces.push_back({weighted(interface.colour), weighted(interface.difference)});
     }
+    for (const MeasuredTerm& term : surfaces[i].measured) {
+      sum.measured.push_back({term.brdf, weight * term.spectra, term.warnings});
+    }
   }
   return sum;
 }

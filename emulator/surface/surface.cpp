@@ -10,11 +10,18 @@ namespace gonio {
 
 using Eigen::ArrayXd;
 
+namespace {
+
+DirectionBatch batch_of(const Vector3& omega) {
+  return {.x = ArrayXd::Constant(1, omega.x()),
+          .y = ArrayXd::Constant(1, omega.y()),
+          .z = ArrayXd::Constant(1, omega.z())};
+}
+
+}  // namespace
+
 ArrayXd Lobe::brdf(const Vector3& omega_i, const Vector3& omega_r) const {
-  DirectionBatch one;
-  one.x = ArrayXd::Constant(1, omega_r.x());
-  one.y = ArrayXd::Constant(1, omega_r.y());
-  one.z = ArrayXd::Constant(1, omega_r.z());
+  const DirectionBatch one = batch_of(omega_r);
   const ArrayXd s = colour(std::sqrt(std::max(0.0, 0.5 * (1.0 + omega_i.dot(omega_r)))));
   ArrayXd g(1);
   if (shape_parameter.size() == 0) {
@@ -29,10 +36,19 @@ ArrayXd Lobe::brdf(const Vector3& omega_i, const Vector3& omega_r) const {
   return f_r;
 }
 
+ArrayXd MeasuredTerm::f_r(const Vector3& omega_i, const Vector3& omega_r) const {
+  Eigen::ArrayXXd channels(1, spectra.rows());
+  brdf->evaluate(omega_i, batch_of(omega_r), channels);
+  return (channels.matrix() * spectra).transpose().array();
+}
+
 ArrayXd Surface::brdf(const Vector3& omega_i, const Vector3& omega_r) const {
   ArrayXd sum = ArrayXd::Zero(grid.size());
   for (const Lobe& lobe : lobes) {
     sum += lobe.brdf(omega_i, omega_r);
+  }
+  for (const MeasuredTerm& term : measured) {
+    sum += term.f_r(omega_i, omega_r);
   }
   return sum;
 }

@@ -4,9 +4,11 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "emulator/core/wavelength_grid.hpp"
+#include "emulator/measured/measured_brdf.hpp"
 #include "emulator/optics/direction.hpp"
 
 namespace gonio {
@@ -62,14 +64,30 @@ struct Interface {
   Colour difference = {};
 };
 
-/// A surface: a sum of lobes, and of smooth interfaces. All spectra are on one wavelength grid.
+/// A term of a BRDF that was measured, and that no geometry factors out of:
+///
+///   f_r(lambda) = sum_c f_c(omega_i, omega_r) spectra(c, lambda).
+struct MeasuredTerm {
+  std::shared_ptr<const MeasuredBrdf> brdf;
+  Eigen::MatrixXd spectra = {};  ///< what a unit of each channel adds, shape (n_channels, n_lambda)
+  std::vector<std::string> warnings = {};  ///< of its file
+
+  /// Contribution to f_r [1/sr], shape (n_lambda).
+  [[nodiscard]] Eigen::ArrayXd f_r(const Vector3& omega_i, const Vector3& omega_r) const;
+};
+
+/// A surface: a sum of lobes, of measured terms, and of smooth interfaces. All spectra are on one
+/// wavelength grid.
 struct Surface {
   WavelengthGrid grid = WavelengthGrid::visible();
   std::vector<Lobe> lobes = {};
   std::vector<Interface> interfaces = {};
+  std::vector<MeasuredTerm> measured = {};
 
-  /// f_r of all lobes [1/sr], shape (n_lambda); without the smooth interfaces, whose f_r is a
-  /// delta.
+  /// Reflects into more than the mirror direction.
+  [[nodiscard]] bool scatters() const { return !lobes.empty() || !measured.empty(); }
+  /// f_r of all lobes and measured terms [1/sr], shape (n_lambda); without the smooth interfaces,
+  /// whose f_r is a delta.
   [[nodiscard]] Eigen::ArrayXd brdf(const Vector3& omega_i, const Vector3& omega_r) const;
   /// Reflectance of the smooth interfaces into the mirror direction, shape (n_lambda).
   [[nodiscard]] Eigen::ArrayXd specular_reflectance(double cos_theta_i) const;

@@ -1,6 +1,6 @@
 # Curves over wavelength: $curves, a group of rows (wavelength / nm, value) for each of `count`.
-# They are weights where `is_weight`, reflectances else.
-set ylabel is_weight ? "source times responsivity, of sum 1" : "reflectance into the receptor"
+# They are, by `kind`, weights (0), reflectances (1) or radiance factors (2).
+set ylabel kind == 0 ? "source times responsivity, of sum 1" : kind == 1 ? "reflectance into the receptor" : "radiance factor"
 set xlabel "wavelength / nm"
 set format y "%g"
 set xrange [x_low:x_high]

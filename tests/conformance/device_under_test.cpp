@@ -70,6 +70,7 @@ DeviceUnderTest find_device(const DeviceOptions& options, const ConformanceSuite
       options.device == "nominal"
           ? nominal_instrument(*suite.set.standard)
           : load_instrument(catalog.find(Catalog::Kind::instrument, options.device), catalog);
+  expect_gloss(instrument);
   instrument.behaviour.seed = seed;
   return emulated(std::move(instrument), suite, catalog);
 }

@@ -170,6 +170,8 @@ TEST(Conformance, RefusesWhatItDoesNotKnow) {
   refused({}, "ID is required");
   refused({"modbus"}, "--device: expected a server, modbus://");
   refused({"iso_2813/2014", "--device", "no_such"}, "expected an instrument file");
+  refused({"iso_2813/2014", "--device", "colorimeter_45_0"},
+          "expected an instrument that measures gloss, found 'colorimeter_45_0'");
   refused({"iso_2813/2014", "--device", "modbus://"}, "modbus://");
   refused({"iso_2813/2014", "--decision", "mild"}, "--decision");
   refused({"iso_2813/2014", "--loud"}, "--loud");

@@ -56,6 +56,9 @@ TEST(ShippedStandards, MeasureInEachGeometryOrNameTheMissingNumber) {
   int measuring = 0;
   int missing = 0;
   for (const std::string& id : ids_of_shipped(Catalog::Kind::standard)) {
+    if (shipped_standard(id).scale.is_of_colour()) {
+      continue;
+    }
     for (const GeometryLimits& geometry : shipped_standard(id).geometries) {
       ++(measures(id, geometry.id) ? measuring : missing);
     }
@@ -66,6 +69,10 @@ TEST(ShippedStandards, MeasureInEachGeometryOrNameTheMissingNumber) {
 
 TEST(ShippedInstruments, ReadTheReferenceGlassAt100) {
   for (const std::string& id : ids_of_shipped(Catalog::Kind::instrument)) {
+    if (load_instrument(test::shipped().find(Catalog::Kind::instrument, id), test::shipped())
+            .standard.scale.is_of_colour()) {
+      continue;
+    }
     const Glossmeter meter = shipped_meter(id);
     for (const std::string& geometry : meter.instrument().geometries) {
       EXPECT_NEAR(meter.read(shipped_sample("black_glass_n1567").surface, geometry, 1e-6).gloss,
@@ -100,19 +107,26 @@ TEST(ShippedSamples, HaveTheIdOfTheirFileAndATitle) {
   }
 }
 
+/// Between the nodes of a table a BRDF has kinks, and its integral ends with the budget of cells; a
+/// tenth of what a display shows is enough.
+double tolerance_of(const Sample& sample) {
+  constexpr double of_tables_gu = 0.1;
+  return sample.surface.measured.empty() ? tolerance_gu : of_tables_gu;
+}
+
 TEST(ShippedSamples, ReadAGlossThatIsNotNegativeAndAReflectanceUpToOne) {
   constexpr double rounding = 1e-12;
   const Glossmeter meter = test::meter_by_standard("iso_2813/2014");
   const Measurement mirror =
       measure(shipped_sample("perfect_mirror"), meter, observer(), {.tolerance = tolerance_gu});
   for (const std::string& id : ids_of_shipped(Catalog::Kind::sample)) {
-    const Measurement measurement =
-        measure(shipped_sample(id), meter, observer(), {.tolerance = tolerance_gu});
+    const Sample sample = shipped_sample(id);
+    const Measurement measurement = measure(sample, meter, observer(), {.tolerance = tolerance_gu});
     for (const GeometryResult& result : measurement.geometries) {
       const GlossReading& reading = result.reading;
       EXPECT_GE(reading.gloss, 0.0) << id << " at " << result.id;
       EXPECT_LE(reading.gloss, mirror.find(result.id)->reading.gloss + tolerance_gu) << id;
-      EXPECT_LE(reading.quadrature_error, tolerance_gu) << id << " at " << result.id;
+      EXPECT_LE(reading.quadrature_error, tolerance_of(sample)) << id << " at " << result.id;
       EXPECT_GE(reading.reflectance.minCoeff(), 0.0) << id << " at " << result.id;
       EXPECT_LE(reading.reflectance.maxCoeff(), 1.0 + rounding) << id << " at " << result.id;
     }

@@ -18,7 +18,7 @@ constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 Chart two_curves() {
   Chart chart("curves");
-  chart.set("is_weight", 0.0).set("count", 2.0).set("y_low", 0.0).set("y_high", 1.0);
+  chart.set("kind", 0.0).set("count", 2.0).set("y_low", 0.0).set("y_high", 1.0);
   chart.set("x_low", 400.0).set("x_high", 500.0);
   chart.block("curves", {{{400.0, 0.1}, {500.0, 0.25}}, {{400.0, 0.5}, {500.0, not_a_number}}});
   return chart;
@@ -27,7 +27,7 @@ Chart two_curves() {
 TEST(Chart, GivesGnuplotNumbersThenTheTemplate) {
   const std::string script = two_curves().script();
   EXPECT_TRUE(
-      script.starts_with("is_weight = 0 \ncount = 2 \ny_low = 0 \ny_high = 1 \nx_low = 400 "
+      script.starts_with("kind = 0 \ncount = 2 \ny_low = 0 \ny_high = 1 \nx_low = 400 "
                          "\nx_high = 500 \n$curves << END_OF_NUMBERS\n400 0.1 \n"
                          "500 0.25 \n\n\n400 0.5 \n500 NaN \n\n\nEND_OF_NUMBERS\n"))
       << script;
@@ -50,7 +50,7 @@ TEST(Chart, IsOneSvgElementWithIdsOfItsOwn) {
 
 TEST(Chart, IsDrawnOfOnePointToo) {
   Chart chart("curves");
-  chart.set("is_weight", 1.0).set("count", 1.0).set("y_low", 0.0).set("y_high", 1.0);
+  chart.set("kind", 1.0).set("count", 1.0).set("y_low", 0.0).set("y_high", 1.0);
   chart.set("x_low", 500.0).set("x_high", 600.0);
   chart.block("curves", {{{550.0, 1.0}}});
   EXPECT_THAT(chart.svg(1), HasSubstr("</svg>"));

@@ -35,10 +35,10 @@ std::string error_with(const std::string& from, const std::string& to) {
 const std::string theta_i = "    theta_i: {nominal: 60 deg,";
 
 TEST(StandardErrors, OfKeys) {
-  EXPECT_EQ(
-      error_with("edition: first\n", "edition: first\ncolour: red\n"),
-      ":5:1: colour: expected one of the keys edition, geometries, haze, id, notes, readings, "
-      "rounding, scale, schema, selection, spectral, title, transcription, found 'colour'");
+  EXPECT_EQ(error_with("edition: first\n", "edition: first\ncolour: red\n"),
+            ":5:1: colour: expected one of the keys edition, flop, geometries, haze, id, notes, "
+            "readings, "
+            "rounding, scale, schema, selection, spectral, title, transcription, found 'colour'");
   EXPECT_EQ(error_with("title: House method\n", ""),
             ":1:1: title: expected the key 'title', found 'only schema, id, edition, "
             "transcription, scale, spectral, geometries'");
@@ -49,7 +49,8 @@ TEST(StandardErrors, OfKeys) {
   EXPECT_EQ(error_with("complete", "all"),
             ":5:16: transcription: expected one of partial, complete, found 'all'");
   EXPECT_EQ(error_with("reference_glass", "glass"),
-            ":8:16: scale.relative_to: expected one of reference_glass, incident_flux, found "
+            ":8:16: scale.relative_to: expected one of reference_glass, incident_flux, "
+            "perfect_diffuser, found "
             "'glass'");
   EXPECT_EQ(error_with("level: C2", "level: C9"),
             ":9:43: scale.value.evidence.level: expected one of C2, C1+calc, C1, calc, memory, "
