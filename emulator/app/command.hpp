@@ -31,7 +31,13 @@ void add_glass_command(CLI::App& program, const CommonOptions& common);
 void add_certify_command(CLI::App& program, const CommonOptions& common, ExitStatus& status);
 /// @param status  becomes what is decided of the batch.
 void add_qa_command(CLI::App& program, const CommonOptions& common, ExitStatus& status);
+void add_acquire_command(CLI::App& program, const CommonOptions& common);
+void add_calibrate_command(CLI::App& program, const CommonOptions& common);
+void add_validate_command(CLI::App& program, const CommonOptions& common);
+void add_scan_command(CLI::App& program, const CommonOptions& common);
 /// @param status  tells whether a search converged.
+void add_fit_command(CLI::App& program, const CommonOptions& common, ExitStatus& status);
+void add_convert_command(CLI::App& program);
 void add_serve_command(CLI::App& program, const CommonOptions& common);
 void add_registers_command(CLI::App& program);
 void add_read_command(CLI::App& program);

@@ -76,6 +76,12 @@ int run(int argc, char** argv) {
   add_glass_command(program, common);
   add_certify_command(program, common, status);
   add_qa_command(program, common, status);
+  add_scan_command(program, common);
+  add_acquire_command(program, common);
+  add_calibrate_command(program, common);
+  add_fit_command(program, common, status);
+  add_validate_command(program, common);
+  add_convert_command(program);
   add_serve_command(program, common);
   add_registers_command(program);
   add_read_command(program);

@@ -166,10 +166,15 @@ void expect_refused(const std::vector<std::string>& arguments, const std::string
 TEST(BadCommand, NoneAtAll) { expect_refused({}, "subcommand"); }
 TEST(BadCommand, Unknown) {
   const std::string message =
-      "expected one of the commands measure, list, glass, certify, qa, serve, registers, "
-      "read, trigger, watch, write, found '";
+      "expected one of the commands measure, colour, profile, list, glass, certify, qa, scan, "
+      "acquire, calibrate, fit, validate, convert, serve, registers, read, trigger, watch, write, "
+      "found '";
   expect_refused({"frobnicate"}, message + "frobnicate'");
   expect_refused({"frobnicate", "--help"}, message + "frobnicate'");
+}
+TEST(BadCommand, FitWithoutData) { expect_refused({"fit"}, "data"); }
+TEST(BadCommand, FitOfAnUnknownModel) {
+  expect_refused({"fit", "none.csv", "--model", "phong"}, "cook_torrance, ggx, ward");
 }
 TEST(BadCommand, MeasureWithoutASample) { expect_refused({"measure"}, "--sample"); }
 TEST(BadCommand, RegistersInAnUnknownFormat) {

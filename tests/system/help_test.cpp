@@ -43,9 +43,24 @@ std::vector<std::vector<std::string>> examples_in(const std::string& help) {
   return examples;
 }
 
-const std::vector<std::vector<std::string>> commands{
-    {},     {"measure"},       {"list"},         {"glass"},        {"certify"},
-    {"qa"}, {"qa", "history"}, {"qa", "export"}, {"qa", "verify"}, {"registers"}};
+const std::vector<std::vector<std::string>> commands{{},
+                                                     {"measure"},
+                                                     {"colour"},
+                                                     {"profile"},
+                                                     {"list"},
+                                                     {"glass"},
+                                                     {"certify"},
+                                                     {"qa"},
+                                                     {"qa", "history"},
+                                                     {"qa", "export"},
+                                                     {"qa", "verify"},
+                                                     {"scan"},
+                                                     {"acquire"},
+                                                     {"calibrate"},
+                                                     {"fit"},
+                                                     {"validate"},
+                                                     {"convert"},
+                                                     {"registers"}};
 
 /// Commands that need a device, or go on until they are told to end.
 const std::vector<std::vector<std::string>> device_commands{
@@ -63,6 +78,8 @@ TEST(Help, ShowsAnExampleForEachCommand) {
 TEST(Help, ShowsExamplesThatRun) {
   const Program program;
   (void)program.file("my_paint.yaml", test::glass_sample());
+  std::filesystem::create_directory_symlink(test::source_tree / "fixtures",
+                                            program.folder() / "fixtures");
   for (const auto& command : commands) {
     for (const auto& example : examples_in(help_of(command))) {
       const Outcome outcome = program.run(example);
@@ -89,8 +106,9 @@ TEST(Help, ShowsExamplesThatRunWithADevice) {
 TEST(Help, OfTheProgramNamesItsCommands) {
   const std::string help = help_of({});
   for (const char* command :
-       {"  measure ", "  list ", "  glass ", "  certify ", "  qa ", "  serve ", "  registers ",
-        "  read ", "  trigger ", "  watch ", "  write "}) {
+       {"  measure ", "  colour ", "  profile ", "  list ", "  glass ", "  certify ", "  qa ",
+        "  scan ", "  acquire ", "  calibrate ", "  fit ", "  validate ", "  convert ", "  serve ",
+        "  registers ", "  read ", "  trigger ", "  watch ", "  write "}) {
     EXPECT_THAT(help, testing::HasSubstr(command));
   }
   EXPECT_THAT(help, testing::HasSubstr("Exit status: 0 done"));
