@@ -14,13 +14,16 @@ thread_local std::size_t largest = 0;
 
 }  // namespace
 
-// The other forms of operator new call this one. Not inline, or gcc 12 takes malloc() and free()
-// for a mismatch with the forms that it does not see.
-[[gnu::noinline]] void* operator new(std::size_t size) {
+// The forms for arrays call these. Not inline, or gcc 12 takes malloc() and free() for a mismatch
+// with the forms that it does not see.
+[[gnu::noinline]] void* operator new(std::size_t size, const std::nothrow_t& /*form*/) noexcept {
   if (is_watched) {
     largest = std::max(largest, size);
   }
-  void* const memory = std::malloc(size);
+  return std::malloc(size);
+}
+[[gnu::noinline]] void* operator new(std::size_t size) {
+  void* const memory = operator new(size, std::nothrow);
   if (memory == nullptr) {
     throw std::bad_alloc();
   }
