@@ -156,7 +156,8 @@ Angle RglBrdf::step(Angle /*theta_i*/) const {
   const double cell = 1.0 / double(ndf.columns - 1);
   const double x = std::max(double(fallen - row.begin()) * cell, cell);
   const double theta_step = (pi / 2.0) * (x * x - (x - cell) * (x - cell));
-  return radians(2.0 * theta_step);  // a mirror that turns by an angle turns light by twice that
+  // A mirror that turns by an angle turns light by twice that.
+  return radians(std::min(2.0 * theta_step, pi / 2.0));
 }
 
 std::vector<float> ascending(const TensorFile& file, std::string_view name,
