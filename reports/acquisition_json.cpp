@@ -2,14 +2,13 @@
 
 #include "reports/acquisition_report.hpp"
 #include "reports/acquisition_words.hpp"
+#include "reports/json_values.hpp"
 
 namespace gonio {
 
 namespace {
 
 using nlohmann::ordered_json;
-
-std::vector<double> list_of(const Eigen::ArrayXd& values) { return {values.begin(), values.end()}; }
 
 const char* name_of(NoiseModel model) {
   switch (model) {
@@ -38,9 +37,9 @@ ordered_json spectrum_json(const AcquiredSpectrum& one) {
       {"shares_dark", one.shares_dark},
       {"variance_shares",
        {{"sample", one.sample_share}, {"mirror", one.mirror_share}, {"dark", one.dark_share}}},
-      {"wavelength_nm", list_of(one.spectrum.wavelength_nm)},
-      {"reflectance", list_of(one.spectrum.reflectance)}};
-  json["u"] = one.spectrum.u.size() > 0 ? ordered_json(list_of(one.spectrum.u)) : nullptr;
+      {"wavelength_nm", json_of(one.spectrum.wavelength_nm)},
+      {"reflectance", json_of(one.spectrum.reflectance)}};
+  json["u"] = one.spectrum.u.size() > 0 ? ordered_json(json_of(one.spectrum.u)) : nullptr;
   return json;
 }
 
@@ -58,7 +57,7 @@ std::string acquisition_json(const AcquisitionResult& result) {
   for (const AcquiredSpectrum& one : result.spectra) {
     json["spectra"].push_back(spectrum_json(one));
   }
-  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace gonio

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "reports/json_values.hpp"
 #include "reports/text_table.hpp"
 
 namespace gonio {
@@ -82,12 +83,11 @@ std::string brdf_json(const BrdfSummary& summary) {
     json["channels"].push_back(channel_name(channel));
   }
   for (const BrdfSummary::Row& row : summary.rows) {
-    json["incidences"].push_back(
-        {{"theta_i_deg", row.theta_i.degrees()},
-         {"step_deg", row.step.degrees()},
-         {"reflectance", std::vector<double>(row.reflectance.begin(), row.reflectance.end())}});
+    json["incidences"].push_back({{"theta_i_deg", row.theta_i.degrees()},
+                                  {"step_deg", row.step.degrees()},
+                                  {"reflectance", json_of(row.reflectance)}});
   }
-  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace gonio

@@ -3,14 +3,13 @@
 
 #include "emulator/core/unit_value.hpp"
 #include "reports/calibration_words.hpp"
+#include "reports/json_values.hpp"
 
 namespace gonio {
 
 namespace {
 
 using nlohmann::ordered_json;
-
-std::vector<double> list_of(const Eigen::ArrayXd& values) { return {values.begin(), values.end()}; }
 
 ordered_json row_json(const GridRow& row) {
   return {{"angle_offset_deg", stated_degrees(row.angle_offset)},
@@ -67,11 +66,11 @@ ordered_json spectrum_json(const CalibratedSpectrum& one) {
                     {"rmse", one.rmse},
                     {"relative_rmse", one.relative_rmse},
                     {"mirror_share", one.mirror_share},
-                    {"wavelength_nm", list_of(one.measured.wavelength_nm)},
-                    {"measured", list_of(one.measured.reflectance)}};
-  json["u"] = one.measured.u.size() > 0 ? ordered_json(list_of(one.measured.u)) : nullptr;
-  json["at_start"] = list_of(one.at_start);
-  json["simulated"] = list_of(one.simulated);
+                    {"wavelength_nm", json_of(one.measured.wavelength_nm)},
+                    {"measured", json_of(one.measured.reflectance)}};
+  json["u"] = one.measured.u.size() > 0 ? ordered_json(json_of(one.measured.u)) : nullptr;
+  json["at_start"] = json_of(one.at_start);
+  json["simulated"] = json_of(one.simulated);
   return json;
 }
 
@@ -90,7 +89,7 @@ ordered_json fit_json(const CalibrationReport& report) {
     json["parameters"].push_back(parameter_json(one));
   }
   for (Eigen::Index i = 0; i < fit.covariance.rows(); ++i) {
-    json["covariance"].push_back(list_of(fit.covariance.row(i).transpose().array()));
+    json["covariance"].push_back(json_of(fit.covariance.row(i).transpose().array()));
   }
   for (const RegionAxis& axis : fit.axes) {
     json["region_axes"].push_back({{"direction", axis.direction},
@@ -104,7 +103,7 @@ ordered_json fit_json(const CalibrationReport& report) {
   json["other_setups"] = ordered_json::array();
   for (const OtherSetup& other : report.others) {
     json["other_setups"].push_back(
-        {{"estimate", list_of(other.estimate.array())}, {"chi_squared", other.chi_squared}});
+        {{"estimate", json_of(other.estimate.array())}, {"chi_squared", other.chi_squared}});
   }
   json["findings"] = fit_sentences(report);
   for (const CalibratedSpectrum& one : fit.spectra) {
@@ -124,7 +123,7 @@ std::string calibration_json(const CalibrationReport& report) {
       {"measured", report.measured}};
   json["grid"] = report.grid ? grid_json(*report.grid) : ordered_json(nullptr);
   json["fit"] = report.fit ? fit_json(report) : ordered_json(nullptr);
-  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace gonio

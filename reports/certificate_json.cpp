@@ -269,7 +269,7 @@ std::string certificate_json(const CertificateReport& report) {
   json["geometries"] = list_of(certificate.geometries);
   json["estimates"] = list_of(certificate.estimates);
   json["sources"] = report.sources;
-  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace gonio

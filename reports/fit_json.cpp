@@ -10,11 +10,6 @@ namespace {
 
 using nlohmann::ordered_json;
 
-template <class Values>
-std::vector<double> fit_numbers(const Values& values) {
-  return {values.begin(), values.end()};
-}
-
 /// Words of a state as ids are written.
 std::string state_id(FittedParameter::State state) {
   return state == FittedParameter::State::at_bound ? "at_bound" : state_words(state);
@@ -48,12 +43,12 @@ ordered_json surface_fit_json(const SurfaceFit& fit, const RankedFit& ranked, bo
                     {"parameters", ordered_json::array()},
                     {"correlation", ordered_json::array()},
                     {"groups", ordered_json::array()},
-                    {"fitted", fit_numbers(fit.fitted)}};
+                    {"fitted", json_of(fit.fitted.array())}};
   for (const FittedParameter& parameter : fit.parameters) {
     json["parameters"].push_back(parameter_json(parameter));
   }
   for (Eigen::Index i = 0; i < fit.correlation.rows(); ++i) {
-    json["correlation"].push_back(fit_numbers(Eigen::VectorXd(fit.correlation.row(i))));
+    json["correlation"].push_back(json_of(fit.correlation.row(i).array()));
   }
   for (const FitDeviation& deviation : fit.deviations) {
     json["groups"].push_back({{"id", deviation.group},
@@ -84,15 +79,14 @@ std::string fit_json(const FitReport& report) {
   for (const FitGroup& group : observations.groups) {
     json["groups"].push_back(
         {{"id", group.id},
-         {"abscissa", fit_numbers(group.abscissa)},
-         {"observed",
-          fit_numbers(Eigen::VectorXd(observations.observed.segment(group.first, group.size())))}});
+         {"abscissa", json_of(group.abscissa)},
+         {"observed", json_of(observations.observed.segment(group.first, group.size()).array())}});
   }
   for (const RankedFit& ranked : report.comparison.ranking) {
     json["models"].push_back(
         surface_fit_json(report.fits[ranked.fit], ranked, observations.is_u_known));
   }
-  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace gonio

@@ -74,7 +74,7 @@ std::string history_json(const std::vector<StoredRun>& runs, const std::string& 
   for (const Trend& trend : trends(runs)) {
     json["trends"].push_back(json_of(trend));
   }
-  return json_document(json);
+  return json_text(json);
 }
 
 }  // namespace gonio

@@ -158,7 +158,7 @@ std::string qa_json(const QaResult& result) {
   json["remarks"] = result.remarks;
   json["provenance"] = json_of(result.run);
   json["provenance"]["batch_text"] = result.run.batch_text;
-  return json_document(json);
+  return json_text(json);
 }
 
 }  // namespace gonio

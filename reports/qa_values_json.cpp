@@ -203,8 +203,4 @@ ordered_json json_of(const ChannelGauge& gauge, const BatchChannel& channel) {
           {"distinct_categories", study.distinct_categories}};
 }
 
-std::string json_document(const ordered_json& json) {
-  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
-}
-
 }  // namespace gonio

@@ -18,9 +18,6 @@ namespace gonio {
 [[nodiscard]] nlohmann::ordered_json json_of(const ChannelGauge& gauge,
                                              const BatchChannel& channel);
 
-/// A whole document, ended by a line break; bytes that are no UTF-8 become U+FFFD.
-[[nodiscard]] std::string json_document(const nlohmann::ordered_json& json);
-
 template <class Item>
 nlohmann::ordered_json json_list(const std::vector<Item>& items) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();

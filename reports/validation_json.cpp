@@ -10,20 +10,18 @@ namespace {
 
 using nlohmann::ordered_json;
 
-std::vector<double> numbers(const Eigen::ArrayXd& values) { return {values.begin(), values.end()}; }
-
 ordered_json spectrum_json(const SimulatedSpectrum& spectrum) {
   return {{"model", model_words(spectrum.model)},
           {"integrator", integrator_words(spectrum.integrator)},
           {"ratio", spectrum.deviation.ratio},
           {"relative_rmse", spectrum.deviation.relative_rmse},
           {"shape_rmse", spectrum.deviation.shape_rmse},
-          {"reflectance", numbers(spectrum.reflectance)}};
+          {"reflectance", json_of(spectrum.reflectance)}};
 }
 
 ordered_json validated_geometry_json(const ValidationGeometry& geometry) {
   ordered_json json{{"id", geometry.id},
-                    {"exact", numbers(geometry.exact)},
+                    {"exact", json_of(geometry.exact)},
                     {"matching_slope", json_of(geometry.matching_slope)},
                     {"spectra", ordered_json::array()}};
   for (const SimulatedSpectrum& spectrum : geometry.simulated) {
@@ -66,14 +64,14 @@ std::string validation_json(const ValidationPlan& plan, const ValidationResult& 
                     {"source", plan.source},
                     {"instrument", plan.instrument.id},
                     {"patches", 3L * plan.patches * plan.patches},
-                    {"wavelength_nm", numbers(result.grid.nanometres())},
+                    {"wavelength_nm", json_of(result.grid.nanometres())},
                     {"materials", ordered_json::array()},
                     {"limits", plan.limits}};
   for (std::size_t m = 0; m < plan.materials.size(); ++m) {
     json["materials"].push_back(
         material_json(plan.materials[m], result.materials[m], result.geometries));
   }
-  return json.dump(1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+  return json_text(json);
 }
 
 }  // namespace gonio
